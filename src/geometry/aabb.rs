@@ -1,0 +1,57 @@
+//! Axis-aligned boxes.
+
+use super::Point;
+
+/// An axis-aligned box; empty while `min > max` on some axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// The least corner.
+    pub min: Point,
+    /// The greatest corner.
+    pub max: Point,
+}
+
+impl Aabb {
+    /// The box that holds nothing.
+    pub const EMPTY: Self = Self { min: Point::INFINITY, max: Point::NEG_INFINITY };
+
+    /// The smallest box around `points`.
+    pub fn around<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |b, &p| b.with(p))
+    }
+
+    /// The smallest box that holds `self` and `p`.
+    pub fn with(self, p: Point) -> Self {
+        Self { min: self.min.min(p), max: self.max.max(p) }
+    }
+
+    /// True if the box holds no point.
+    pub fn is_empty(&self) -> bool {
+        self.min.cmpgt(self.max).any()
+    }
+
+    /// Edge lengths; zero for an empty box.
+    pub fn size(&self) -> Point {
+        if self.is_empty() { Point::ZERO } else { self.max - self.min }
+    }
+
+    /// Length of the diagonal; zero for an empty box.
+    pub fn diagonal(&self) -> f64 {
+        self.size().length()
+    }
+
+    /// The middle of the box.
+    pub fn center(&self) -> Point {
+        self.min.midpoint(self.max)
+    }
+
+    /// True if the two closed boxes share a point.
+    pub fn touches(&self, other: &Self) -> bool {
+        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+    }
+
+    /// The box grown by `margin` on every side.
+    pub fn grown(&self, margin: f64) -> Self {
+        Self { min: self.min - Point::splat(margin), max: self.max + Point::splat(margin) }
+    }
+}

@@ -1,0 +1,41 @@
+//! **hexmill**: conforming quadrilateral and hexahedral meshes.
+//!
+//! The crate is one core for three front ends: a page in the browser, an npm package and a command
+//! line. It does no I/O, reads no clock and logs nothing; progress and cancellation come in through
+//! one parameter, [`Monitor`].
+//!
+//! # Reading order
+//!
+//! Modules may use what stands above them, never what stands below (`tests/layers.rs` holds them to it).
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`geometry`] | points, boxes, distances; knows no mesh |
+//! | [`mesh`] | ids, reference elements, meshes, topology, checks, quality |
+//! | [`template`] | refinement templates as data |
+//! | [`sizing`] | where to refine and how far |
+//! | [`forest`] | quadtrees over unstructured coarse cells, strong balance |
+//! | [`refine`] | conforming refinement (Ebeida, Patney, Owens, Mestreau) |
+//! | [`io`] | bytes in, bytes out: OBJ, VTU, VTK, MSH, INP, MEDIT, GLB |
+//! | [`scene`] | meshes as f32 draw buffers; no GPU |
+
+pub mod geometry;
+pub mod mesh;
+mod monitor;
+
+pub mod sizing;
+pub mod template;
+
+pub mod forest;
+
+pub mod refine;
+
+pub mod io;
+pub mod scene;
+
+#[cfg(feature = "viewer")]
+pub mod render;
+#[cfg(any(feature = "mesher", feature = "viewer"))]
+mod web;
+
+pub use monitor::{Cancelled, Monitor, Silent, Stage};

@@ -1,0 +1,13 @@
+//! Meshes: ids, structure-of-arrays meshes, topology, checks, quality.
+
+mod hex;
+mod id;
+mod polygon;
+mod quad;
+mod tags;
+
+pub use hex::HexMesh;
+pub use id::{EdgeId, FaceId, HexId, NodeId};
+pub use polygon::{Features, PolygonMesh};
+pub use quad::QuadMesh;
+pub use tags::{TagSet, Tags};

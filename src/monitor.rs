@@ -1,0 +1,38 @@
+//! The one parameter through which long work tells how far it is and learns that it is to stop.
+
+/// A stage of long work, in the order in which stages run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Stage(pub &'static str);
+
+/// Receives progress and says when to stop. Implemented by the front ends; the core only calls it.
+pub trait Monitor: Sync {
+    /// `fraction` of `stage` is done, from 0 to 1, never falling within a stage.
+    fn progress(&self, stage: Stage, fraction: f64);
+
+    /// True once the caller wants the work to stop. Asked at least every few milliseconds of work.
+    fn cancelled(&self) -> bool;
+
+    /// Reports progress, and stops the caller with `?` if the work was cancelled.
+    fn checkpoint(&self, stage: Stage, fraction: f64) -> Result<(), Cancelled> {
+        if self.cancelled() {
+            return Err(Cancelled);
+        }
+        self.progress(stage, fraction);
+        Ok(())
+    }
+}
+
+/// A monitor that listens to nothing and never stops the work.
+pub struct Silent;
+
+impl Monitor for Silent {
+    fn progress(&self, _: Stage, _: f64) {}
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// The work was stopped by its [`Monitor`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("cancelled")]
+pub struct Cancelled;
