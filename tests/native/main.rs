@@ -1,1 +1,8 @@
-fn main() {}
+//! One binary of native integration tests: a module a subject.
+#![cfg(not(target_arch = "wasm32"))]
+
+mod cli;
+mod formats;
+mod obj;
+mod refine;
+mod scene;
