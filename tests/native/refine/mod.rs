@@ -1,1 +1,32 @@
-//! refine
+//! Conforming refinement of quad meshes.
+
+mod exhaustive;
+mod judge;
+mod random;
+mod worlds;
+
+use hexmill::Silent;
+use hexmill::geometry::Point;
+use hexmill::mesh::PolygonMesh;
+use hexmill::refine::{QuadOptions, QuadRefinement, RefinedQuads};
+
+/// Refines the elements for which `wanted(level, center)` holds.
+fn refine_where(
+    input: &PolygonMesh,
+    options: &QuadOptions,
+    wanted: impl Fn(usize, Point) -> bool,
+) -> RefinedQuads {
+    let mut refinement = QuadRefinement::new(input, options).expect("a valid surface");
+    for level in 0.. {
+        let candidates = refinement.candidates();
+        let targets: Vec<f64> = candidates
+            .centers
+            .iter()
+            .map(|&center| if wanted(level, center) { 0.0 } else { f64::INFINITY })
+            .collect();
+        if !refinement.advance(Some(&targets), &Silent).expect("within limits") {
+            break;
+        }
+    }
+    refinement.finish(&Silent).expect("within limits")
+}

@@ -1,0 +1,235 @@
+//! The base level of a forest, from a polygon mesh.
+//!
+//! As in the paper every face of level 0 is refined once, which tells edge nodes from the others everywhere:
+//!
+//! ```text
+//!        q2                 an n-gon becomes n quads: child i is
+//!       /  \                (q_i, m_i, c, m_{i-1}), with the edges
+//!     m2    m1              half of e_i at q_i, interior i,
+//!     /  \ /  \             interior i-1, half of e_{i-1} at q_i;
+//!    /    c    \            interior i joins m_i to c
+//!   q0----m0----q1
+//! ```
+//!
+//! Where the nodes of an all-quad mesh can be coloured with two colours, none beside its own, the coarse quads
+//! themselves alternate: turned so that local nodes 1 and 3 have the second colour they serve as the base
+//! level, and need not be refined (beyond the paper).
+
+use rayon::prelude::*;
+
+use super::QuadForest;
+use super::quadtree::{Level, LevelEdges};
+use crate::geometry::Point;
+use crate::mesh::topology::Edges;
+use crate::mesh::{EdgeId, FaceId, NodeId, PolygonMesh};
+
+/// Why a polygon mesh cannot be the base of a forest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BaseError {
+    /// Coarse quads can be kept only where all faces are quads.
+    #[error("face {face} has {nodes} nodes; coarse faces can be kept only if all of them are quads")]
+    NotAQuad {
+        /// The first face that is no quad.
+        face: FaceId,
+        /// How many nodes it has.
+        nodes: usize,
+    },
+    /// Coarse quads can be kept only where the nodes can be two-coloured.
+    #[error(
+        "nodes {} and {} lie on a cycle of odd length, so that the coarse quads cannot alternate \
+         edge nodes and others; refine without keeping them", .0[0], .0[1]
+    )]
+    OddCycle([NodeId; 2]),
+}
+
+impl QuadForest {
+    /// The forest of level 1: every face of `input` refined once.
+    pub fn refined_once(input: &PolygonMesh) -> Self {
+        let edges = Edges::of_polygons(input);
+        let (mut positions, node_of) = used_nodes(input);
+        let first_edge_node = positions.len();
+        positions.par_extend(edges.ends.par_iter().map(|ends| {
+            let [a, b] = ends.map(|n| input.positions[n.index()]);
+            (a + b) * 0.5
+        }));
+        let first_face_node = positions.len();
+        positions.par_extend((0..input.face_count()).into_par_iter().map(|f| mean(input, f)));
+
+        let edge_node = |e: EdgeId| NodeId::new(first_edge_node + e.index());
+        let halves = edges.ends.par_iter().enumerate().map(|(e, ends)| {
+            let middle = edge_node(EdgeId::new(e));
+            ends.map(|end| [middle, node_of[end.index()]])
+        });
+        let mut ends = halves.collect::<Vec<_>>().into_flattened();
+        let first_interior = ends.len();
+
+        let mut elements = Vec::with_capacity(input.corners.len());
+        let mut of_element = Vec::with_capacity(input.corners.len());
+        let mut roots = Vec::with_capacity(input.corners.len());
+        for f in 0..input.face_count() {
+            let face_node = NodeId::new(first_face_node + f);
+            let (start, end) = (input.offsets[f] as usize, input.offsets[f + 1] as usize);
+            for here in start..end {
+                let before = if here == start { end - 1 } else { here - 1 };
+                let corner = input.corners[here];
+                let (edge, edge_before) = (edges.of_corner[here], edges.of_corner[before]);
+                let half = |e: EdgeId| EdgeId(2 * e.0 + u32::from(edges.ends[e.index()][1] == corner));
+                let interior = |k: usize| EdgeId::new(first_interior + k);
+                elements.push([node_of[corner.index()], edge_node(edge), face_node, edge_node(edge_before)]);
+                of_element.push([half(edge), interior(here), interior(before), half(edge_before)]);
+                ends.push([edge_node(edge), face_node]);
+                roots.push(FaceId::new(f));
+            }
+        }
+        let base = Level::base(elements, roots, LevelEdges::base(of_element, ends));
+        Self { positions, levels: vec![base], base_level: 1 }
+    }
+
+    /// The forest of level 0, whose base is the quads of `input` as they are.
+    pub fn coarse(input: &PolygonMesh) -> Result<Self, BaseError> {
+        let mut elements = as_quads(input)?;
+        let edges = Edges::of_polygons(input);
+        let colouring = Colouring::of(input.positions.len(), &edges.ends)?;
+        let (positions, node_of) = used_nodes(input);
+        let new = |n: NodeId| node_of[n.index()];
+        let mut of_element: Vec<[EdgeId; 4]> =
+            edges.of_corner.chunks_exact(4).map(|e| [e[0], e[1], e[2], e[3]]).collect();
+        for (element, sides) in elements.iter_mut().zip(&mut of_element) {
+            if colouring.is_second(element[0]) {
+                element.rotate_left(1);
+                sides.rotate_left(1);
+            }
+            *element = element.map(new);
+        }
+        let edge_node_first = |ends: &[NodeId; 2]| {
+            let [a, b] = *ends;
+            if colouring.is_second(a) { [new(a), new(b)] } else { [new(b), new(a)] }
+        };
+        let ends = edges.ends.iter().map(edge_node_first).collect();
+        let roots = (0..elements.len()).map(FaceId::new).collect();
+        let base = Level::base(elements, roots, LevelEdges::base(of_element, ends));
+        Ok(Self { positions, levels: vec![base], base_level: 0 })
+    }
+
+    /// The quads of `input` as a forest that is never to be split.
+    pub fn untouched(input: &PolygonMesh) -> Result<Self, BaseError> {
+        let elements = as_quads(input)?;
+        let (positions, node_of) = used_nodes(input);
+        let elements: Vec<_> = elements.iter().map(|q| q.map(|n| node_of[n.index()])).collect();
+        let roots = (0..elements.len()).map(FaceId::new).collect();
+        Ok(Self {
+            positions,
+            levels: vec![Level::base(elements, roots, LevelEdges::default())],
+            base_level: 0,
+        })
+    }
+}
+
+/// The faces of `input`, if all of them are quads.
+fn as_quads(input: &PolygonMesh) -> Result<Vec<[NodeId; 4]>, BaseError> {
+    input
+        .faces()
+        .enumerate()
+        .map(|(f, nodes)| {
+            nodes.try_into().map_err(|_| BaseError::NotAQuad { face: FaceId::new(f), nodes: nodes.len() })
+        })
+        .collect()
+}
+
+/// The positions of the nodes that some face has, in order, and the new number of each.
+fn used_nodes(input: &PolygonMesh) -> (Vec<Point>, Vec<NodeId>) {
+    let mut used = vec![false; input.positions.len()];
+    for n in &input.corners {
+        used[n.index()] = true;
+    }
+    let mut positions = Vec::with_capacity(input.positions.len());
+    let node_of = used
+        .iter()
+        .zip(&input.positions)
+        .map(|(&used, &p)| {
+            let id = NodeId::new(positions.len());
+            if used {
+                positions.push(p);
+            }
+            id
+        })
+        .collect();
+    (positions, node_of)
+}
+
+/// The mean of the nodes of face `f`. Opposite corners are added first, as for every other element.
+fn mean(input: &PolygonMesh, f: usize) -> Point {
+    let nodes = input.face(f);
+    let at = |n: NodeId| input.positions[n.index()];
+    if let [a, b, c, d] = *nodes {
+        return ((at(a) + at(c)) + (at(b) + at(d))) * 0.25;
+    }
+    nodes.iter().map(|&n| at(n)).sum::<Point>() / nodes.len() as f64
+}
+
+/// A colouring of nodes with two colours such that every edge joins both.
+struct Colouring(Vec<Option<bool>>);
+
+impl Colouring {
+    /// Colours the nodes of a graph. In every connected part the node of the least number has the first colour.
+    fn of(node_count: usize, edges: &[[NodeId; 2]]) -> Result<Self, BaseError> {
+        let neighbours = Neighbours::of(node_count, edges);
+        let mut colour = vec![None; node_count];
+        let mut queue = Vec::new();
+        for start in 0..node_count {
+            if colour[start].is_some() {
+                continue;
+            }
+            colour[start] = Some(false);
+            queue.push(NodeId::new(start));
+            while let Some(node) = queue.pop() {
+                for &other in neighbours.of_node(node) {
+                    if colour[other.index()] == colour[node.index()] {
+                        return Err(BaseError::OddCycle([node.min(other), node.max(other)]));
+                    }
+                    if colour[other.index()].is_none() {
+                        colour[other.index()] = colour[node.index()].map(|c: bool| !c);
+                        queue.push(other);
+                    }
+                }
+            }
+        }
+        Ok(Self(colour))
+    }
+
+    /// True if `node` has the second colour, the edge nodes'.
+    fn is_second(&self, node: NodeId) -> bool {
+        self.0[node.index()] == Some(true)
+    }
+}
+
+/// The neighbours of each node along edges, row by row.
+struct Neighbours {
+    offsets: Vec<u32>,
+    nodes: Vec<NodeId>,
+}
+
+impl Neighbours {
+    fn of(node_count: usize, edges: &[[NodeId; 2]]) -> Self {
+        let mut offsets = vec![0; node_count + 1];
+        for end in edges.as_flattened() {
+            offsets[end.index() + 1] += 1;
+        }
+        for n in 0..node_count {
+            offsets[n + 1] += offsets[n];
+        }
+        let mut next = offsets.clone();
+        let mut nodes = vec![NodeId::default(); 2 * edges.len()];
+        for &[a, b] in edges {
+            for (from, to) in [(a, b), (b, a)] {
+                nodes[next[from.index()] as usize] = to;
+                next[from.index()] += 1;
+            }
+        }
+        Self { offsets, nodes }
+    }
+
+    fn of_node(&self, node: NodeId) -> &[NodeId] {
+        &self.nodes[self.offsets[node.index()] as usize..self.offsets[node.index() + 1] as usize]
+    }
+}

@@ -1,0 +1,246 @@
+//! Quadtrees over unstructured coarse faces: levels, edges, and the 1 -> 4 split.
+//!
+//! ```text
+//!   r3---m2---r2        child i = (r_i, m_i, c, m_{i-1})
+//!   | 3   |  2 |        its edges: half of e_i at r_i, interior i,
+//!   m3----c---m1                   interior i-1, half of e_{i-1} at r_i
+//!   | 0   |  1 |        interior i joins m_i to c
+//!   r0---m0---r1        e_i joins r_i to r_{i+1}
+//! ```
+
+use rayon::prelude::*;
+
+use crate::geometry::Point;
+use crate::mesh::{EdgeId, FaceId, NodeId};
+use crate::template::quad::{SPLIT, place};
+
+/// The elements of one level.
+#[derive(Debug, Default)]
+pub struct Level {
+    /// The four nodes of each element; local nodes 1 and 3 are its edge nodes.
+    pub elements: Vec<[NodeId; 4]>,
+    /// For each element that is refined, in the order in which they were: element `refined[k]` has the
+    /// elements `4k..4k + 4` of the next level as its children.
+    pub refined: Vec<u32>,
+    /// For each element: is it refined?
+    pub is_refined: Vec<bool>,
+    /// The edges, as far as they were needed.
+    pub(crate) edges: LevelEdges,
+    /// The coarse face of each run of `siblings` elements.
+    roots: Vec<FaceId>,
+    /// How many successive elements share an entry of `roots`: 1 at the base of the forest, else 4.
+    siblings: usize,
+}
+
+/// The edges of one level. They are made when an element of the level is first refined.
+#[derive(Debug, Default)]
+pub(crate) struct LevelEdges {
+    /// The edges of each element; edge `i` joins its local nodes `i` and `i + 1`.
+    pub of_element: Vec<[EdgeId; 4]>,
+    /// The ends of each edge: its edge node, then the other.
+    pub ends: Vec<[NodeId; 2]>,
+    /// The node that divides each edge, or [`UNDIVIDED`].
+    pub middle: Vec<NodeId>,
+    /// The edges that are divided by the split of an element, in the order in which they were.
+    split: Vec<EdgeId>,
+    /// The first of each split edge's two halves, the one at its edge node, among the edges of the next level.
+    halves: Vec<EdgeId>,
+    /// How many of `split` have their halves.
+    halved: usize,
+}
+
+/// What stands in [`LevelEdges::middle`] for an edge that no node divides.
+pub(crate) const UNDIVIDED: NodeId = NodeId(u32::MAX);
+
+impl Level {
+    /// The base level of a forest.
+    pub(crate) fn base(elements: Vec<[NodeId; 4]>, roots: Vec<FaceId>, edges: LevelEdges) -> Self {
+        Self {
+            is_refined: vec![false; elements.len()],
+            elements,
+            roots,
+            siblings: 1,
+            edges,
+            refined: Vec::new(),
+        }
+    }
+
+    /// The coarse face that element `e` is part of.
+    pub fn root(&self, e: usize) -> FaceId {
+        self.roots[e / self.siblings]
+    }
+
+    /// The coarse face of every element, in order.
+    pub fn roots(&self) -> impl IndexedParallelIterator<Item = FaceId> + '_ {
+        (0..self.elements.len()).into_par_iter().map(|e| self.root(e))
+    }
+}
+
+impl LevelEdges {
+    /// The edges of a base level.
+    pub(crate) fn base(of_element: Vec<[EdgeId; 4]>, ends: Vec<[NodeId; 2]>) -> Self {
+        let (middle, halves) = (vec![UNDIVIDED; ends.len()], vec![EdgeId::default(); ends.len()]);
+        Self { of_element, ends, middle, halves, ..Self::default() }
+    }
+
+    /// The half of edge `e` at local node `corner` of an element that has it. Edge nodes are local nodes 1
+    /// and 3, and the first half is theirs.
+    fn half(&self, e: EdgeId, corner: usize) -> EdgeId {
+        EdgeId(self.halves[e.index()].0 + u32::from(corner.is_multiple_of(2)))
+    }
+}
+
+/// A forest of quadtrees: the nodes of all levels and the elements of each.
+#[derive(Debug)]
+pub struct QuadForest {
+    /// Coordinates of all nodes.
+    pub positions: Vec<Point>,
+    /// The levels, from the base.
+    pub levels: Vec<Level>,
+    /// The refinement level of `levels[0]`: 1 after the first split of every face, 0 with coarse quads kept.
+    pub base_level: u8,
+}
+
+impl QuadForest {
+    /// Number of elements that are not refined.
+    pub fn leaf_count(&self) -> usize {
+        self.levels.iter().map(|l| l.elements.len() - l.refined.len()).sum()
+    }
+
+    /// Splits the elements `marked` of `levels[depth]`, none of which is refined yet, into four each.
+    pub fn split(&mut self, depth: usize, marked: &[u32]) {
+        if marked.is_empty() {
+            return;
+        }
+        self.complete_edges_of(depth);
+        if depth + 1 == self.levels.len() {
+            self.levels.push(Level { siblings: 4, ..Level::default() });
+        }
+        let face_nodes = self.add_nodes(depth, marked);
+        let (parents, children) = self.levels.split_at_mut(depth + 1);
+        let (parent, child) = (&mut parents[depth], &mut children[0]);
+        let blocks: Vec<[[NodeId; 4]; 4]> = marked
+            .par_iter()
+            .enumerate()
+            .map(|(k, &e)| {
+                let [r0, r1, r2, r3] = parent.elements[e as usize];
+                let [m0, m1, m2, m3] =
+                    parent.edges.of_element[e as usize].map(|e| parent.edges.middle[e.index()]);
+                place(&SPLIT, &[r0, r1, r2, r3, m0, m1, m2, m3, NodeId(face_nodes.0 + k as u32)])
+            })
+            .collect();
+        append(&mut child.elements, blocks.into_flattened());
+        child.is_refined.resize(child.elements.len(), false);
+        child.roots.extend(marked.iter().map(|&e| parent.root(e as usize)));
+        for &e in marked {
+            parent.is_refined[e as usize] = true;
+        }
+        parent.refined.extend_from_slice(marked);
+    }
+
+    /// Divides the edges of the `marked` elements that nothing divides yet and gives each element its face
+    /// node; returns the first of the face nodes.
+    fn add_nodes(&mut self, depth: usize, marked: &[u32]) -> NodeId {
+        let Level { elements, edges, .. } = &mut self.levels[depth];
+        let (first_node, first_split) = (self.positions.len(), edges.split.len());
+        for &e in marked {
+            for edge in edges.of_element[e as usize] {
+                let middle = &mut edges.middle[edge.index()];
+                if *middle == UNDIVIDED {
+                    *middle = NodeId::new(first_node + edges.split.len() - first_split);
+                    edges.split.push(edge);
+                }
+            }
+        }
+        let divided = &edges.split[first_split..];
+        let face_nodes = NodeId::new(first_node + divided.len());
+        self.positions.resize(face_nodes.index() + marked.len(), Point::ZERO);
+        let (old, new) = self.positions.split_at_mut(first_node);
+        let (edge_positions, face_positions) = new.split_at_mut(divided.len());
+        edge_positions.par_iter_mut().zip(divided).for_each(|(p, edge)| {
+            *p = midpoint(old, edges.ends[edge.index()]);
+        });
+        face_positions.par_iter_mut().zip(marked).for_each(|(p, &e)| {
+            *p = center(old, elements[e as usize]);
+        });
+        face_nodes
+    }
+
+    /// Makes all edges of the levels that have refined elements.
+    pub(crate) fn complete_edges(&mut self) {
+        for depth in 1..self.levels.len() {
+            if !self.levels[depth].refined.is_empty() {
+                self.complete_edges_of(depth);
+            }
+        }
+    }
+
+    /// Makes the edges of `levels[depth]` that the splits of its parents have called for.
+    fn complete_edges_of(&mut self, depth: usize) {
+        let Some(above) = depth.checked_sub(1) else { return };
+        let (parents, children) = self.levels.split_at_mut(depth);
+        let (parent, child) = (&mut parents[above], &mut children[0]);
+        let Level { elements, edges, .. } = child;
+
+        let first_half = edges.ends.len();
+        let newly_split = &parent.edges.split[parent.edges.halved..];
+        for (k, edge) in newly_split.iter().enumerate() {
+            parent.edges.halves[edge.index()] = EdgeId::new(first_half + 2 * k);
+        }
+        let halves: Vec<[[NodeId; 2]; 2]> = newly_split
+            .par_iter()
+            .map(|edge| {
+                let middle = parent.edges.middle[edge.index()];
+                parent.edges.ends[edge.index()].map(|end| [middle, end])
+            })
+            .collect();
+        append(&mut edges.ends, halves.into_flattened());
+        parent.edges.halved = parent.edges.split.len();
+
+        let first_block = edges.of_element.len() / 4;
+        let first_interior = edges.ends.len();
+        let new_blocks = &parent.refined[first_block..];
+        let interiors: Vec<[[NodeId; 2]; 4]> = elements[4 * first_block..]
+            .par_chunks_exact(4)
+            .map(|block| std::array::from_fn(|i| [block[i][1], block[i][2]]))
+            .collect();
+        let of_element: Vec<[[EdgeId; 4]; 4]> = new_blocks
+            .par_iter()
+            .enumerate()
+            .map(|(k, &e)| {
+                let sides = parent.edges.of_element[e as usize];
+                let interior = |i: usize| EdgeId((first_interior + 4 * k + i) as u32);
+                std::array::from_fn(|i| {
+                    let before = (i + 3) % 4;
+                    let half = |side: usize| parent.edges.half(sides[side], i);
+                    [half(i), interior(i), interior(before), half(before)]
+                })
+            })
+            .collect();
+        append(&mut edges.ends, interiors.into_flattened());
+        append(&mut edges.of_element, of_element.into_flattened());
+        edges.middle.resize(edges.ends.len(), UNDIVIDED);
+        edges.halves.resize(edges.ends.len(), EdgeId::default());
+    }
+}
+
+/// Halfway between the ends of an edge.
+pub(crate) fn midpoint(positions: &[Point], ends: [NodeId; 2]) -> Point {
+    let [a, b] = ends.map(|n| positions[n.index()]);
+    (a + b) * 0.5
+}
+
+/// The mean of the four nodes of an element.
+pub(crate) fn center(positions: &[Point], element: [NodeId; 4]) -> Point {
+    let [a, b, c, d] = element.map(|n| positions[n.index()]);
+    ((a + c) + (b + d)) * 0.25
+}
+
+/// Appends `more` to `all`, without a copy where `all` is empty.
+fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
+    if all.is_empty() {
+        *all = more;
+    } else {
+        all.append(&mut more);
+    }
+}

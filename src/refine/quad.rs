@@ -1,0 +1,254 @@
+//! Algorithm 1: conforming refinement of quadrilateral meshes (Ebeida et al., section 2).
+//!
+//! 1. Refine every element of level 0 once; this tells edge nodes from the others (`forest::base`).
+//! 2. Level by level, refine the elements that the sizing asks for (`sizing`).
+//! 3. Strongly balance the forest (`forest::balance`).
+//! 4. Apply a transition template to each element with active edge nodes (`conform`).
+//!
+//! **Promises.** The mesh conforms on every surface, open, closed or non-manifold; no node is unused, none is
+//! repeated in a quad. From squares all angles are from 45 to 135 degrees. Orientation, Euler characteristic,
+//! and on planar faces the area are the input's.
+//!
+//! **Refuses** surfaces with invalid faces, options out of range, and results over the limit of quads; the limit
+//! is checked before each level is made.
+//!
+//! **Departures from the paper.** Polygons are welcome: an n-gon's first refinement makes n quads. If nothing is
+//! to be refined, an all-quad mesh comes back as it is. Coarse quads can be kept (see `forest::base`).
+
+use rayon::prelude::*;
+
+use super::conform::conform;
+use super::options::{QuadOptions, RefineError, RefinedQuads, validate};
+use crate::forest::QuadForest;
+use crate::geometry::Point;
+use crate::mesh::{FaceId, NodeId, PolygonMesh};
+use crate::sizing::{SizeField, SizeOptions, SizedElement};
+use crate::{Cancelled, Monitor, Stage};
+
+/// Elements are sized in runs of this many; the monitor is asked before each run.
+const RUN: usize = 1 << 14;
+
+const REFINE: Stage = Stage("refine");
+const BALANCE: Stage = Stage("balance");
+
+/// Refines `input` to a conforming quad mesh.
+///
+/// # Errors
+/// See [`RefineError`]; nothing is returned in part.
+pub fn refine_quads(
+    input: &PolygonMesh,
+    options: &QuadOptions,
+    monitor: &dyn Monitor,
+) -> Result<RefinedQuads, RefineError> {
+    let mut refinement = QuadRefinement::new(input, options)?;
+    while refinement.advance(None, monitor)? {}
+    refinement.finish(monitor)
+}
+
+/// Refinement a level at a time, for callers that decide between levels how fine each element is to be.
+pub struct QuadRefinement<'a> {
+    input: &'a PolygonMesh,
+    options: &'a QuadOptions,
+    field: SizeField,
+    /// None while the input's faces wait for the first decision.
+    forest: Option<QuadForest>,
+    /// Elements of the deepest level that would have been refined further, were it not for `max_levels`.
+    capped: usize,
+}
+
+/// The elements of the deepest level, as a caller's size function wants them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Candidates {
+    /// The mean of each element's nodes.
+    pub centers: Vec<Point>,
+    /// The length of each element's longest edge.
+    pub longest: Vec<f64>,
+}
+
+impl<'a> QuadRefinement<'a> {
+    /// Checks input and options and prepares the sizing.
+    ///
+    /// # Errors
+    /// If the input is no valid surface or an option is out of range.
+    pub fn new(input: &'a PolygonMesh, options: &'a QuadOptions) -> Result<Self, RefineError> {
+        validate(input, options)?;
+        let field = SizeField::new(
+            input,
+            SizeOptions {
+                edge_length: options.edge_length,
+                curvature: options.curvature,
+                gradation: options.gradation,
+                regions: &options.regions,
+            },
+        )?;
+        let forest = if options.keep_coarse { Some(QuadForest::coarse(input)?) } else { None };
+        Ok(Self { input, options, field, forest, capped: 0 })
+    }
+
+    /// The elements that the next [`advance`](Self::advance) decides on: the input's faces at first, then the
+    /// elements that the last one made.
+    pub fn candidates(&self) -> Candidates {
+        let (centers, longest) = match &self.forest {
+            None => {
+                (0..self.input.face_count()).into_par_iter().map(|f| outline(&self.face_points(f))).unzip()
+            }
+            Some(forest) => deepest(forest)
+                .par_iter()
+                .map(|element| outline(&corners(&forest.positions, element)))
+                .unzip(),
+        };
+        Candidates { centers, longest }
+    }
+
+    /// Refines the candidates that options or `targets` ask for; `targets` holds the greatest edge length allowed
+    /// for each candidate. Returns false when there was nothing to refine, and the work can be finished.
+    ///
+    /// # Errors
+    /// If the monitor stops it, or the mesh would become too large.
+    ///
+    /// # Panics
+    /// If `targets` is not as long as the candidates.
+    pub fn advance(&mut self, targets: Option<&[f64]>, monitor: &dyn Monitor) -> Result<bool, RefineError> {
+        match &self.forest {
+            None => self.refine_coarse(targets, monitor),
+            Some(forest) => {
+                let depth = forest.levels.len() - 1;
+                let level = forest.base_level + depth as u8;
+                let fraction = f64::from(level) / f64::from(self.options.max_levels.max(1));
+                monitor.checkpoint(REFINE, fraction)?;
+                let marked = self.marked(forest, targets, monitor)?;
+                if level >= self.options.max_levels {
+                    self.capped = marked.len();
+                    return Ok(false);
+                }
+                self.split(&marked)
+            }
+        }
+    }
+
+    /// Balances the forest, applies the templates, and returns the mesh.
+    ///
+    /// # Errors
+    /// If the monitor stops it, or balance would make the mesh too large.
+    pub fn finish(self, monitor: &dyn Monitor) -> Result<RefinedQuads, RefineError> {
+        let mut forest = match self.forest {
+            Some(forest) => forest,
+            None => QuadForest::untouched(self.input)?,
+        };
+        monitor.checkpoint(BALANCE, 0.0)?;
+        forest.balance(monitor)?;
+        monitor.checkpoint(BALANCE, 1.0)?;
+        let deepest = forest.base_level + (forest.levels.len() - 1) as u8;
+        check_size(self.options, deepest, forest.leaf_count() as u64)?;
+        let refined = conform(forest, &self.input.tags, monitor)?;
+        Ok(RefinedQuads { capped: self.capped, ..refined })
+    }
+
+    /// The first decision: refine every face of the input once, or leave all of them.
+    fn refine_coarse(&mut self, targets: Option<&[f64]>, monitor: &dyn Monitor) -> Result<bool, RefineError> {
+        monitor.checkpoint(REFINE, 0.0)?;
+        let input = self.input;
+        let wanted = (0..input.face_count()).into_par_iter().any(|f| {
+            let points = self.face_points(f);
+            let (center, longest) = outline(&points);
+            exceeds(targets, f, longest) || self.wants_face(f, &points, center, longest)
+        });
+        let all_quad = input.is_all_quad();
+        if all_quad && !(wanted && self.options.max_levels > 0) {
+            self.capped = if wanted { input.face_count() } else { 0 };
+            return Ok(false);
+        }
+        check_size(self.options, 1, input.corners.len() as u64)?;
+        self.forest = Some(QuadForest::refined_once(input));
+        Ok(true)
+    }
+
+    fn face_points(&self, f: usize) -> Vec<Point> {
+        self.input.face(f).iter().map(|n| self.input.positions[n.index()]).collect()
+    }
+
+    /// True if some part of face `f`, one quad at each corner, is wanted finer.
+    fn wants_face(&self, f: usize, points: &[Point], center: Point, longest: f64) -> bool {
+        let n = points.len();
+        self.options.levels.is_some_and(|levels| levels > 0)
+            || (0..n).any(|i| {
+                let (here, before, after) = (points[i], points[(i + n - 1) % n], points[(i + 1) % n]);
+                let corners = [here, (here + after) * 0.5, center, (before + here) * 0.5];
+                self.field.wants(&SizedElement { corners, longest, level: 0, root: FaceId::new(f) })
+            })
+    }
+
+    /// The elements of the deepest level that options or `targets` want finer.
+    fn marked(
+        &self,
+        forest: &QuadForest,
+        targets: Option<&[f64]>,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<u32>, Cancelled> {
+        let level = forest.levels.last().expect("a forest has a base level");
+        let number = forest.base_level + (forest.levels.len() - 1) as u8;
+        if number < self.options.levels.unwrap_or(0) {
+            return Ok((0..level.elements.len() as u32).collect());
+        }
+        let wants = |e: usize| {
+            let corners = corners(&forest.positions, &level.elements[e]);
+            let (_, longest) = outline(&corners);
+            exceeds(targets, e, longest)
+                || self.field.wants(&SizedElement { corners, longest, level: number, root: level.root(e) })
+        };
+        let runs: Vec<Vec<u32>> = (0..level.elements.len())
+            .into_par_iter()
+            .step_by(RUN)
+            .map(|first| {
+                if monitor.cancelled() {
+                    return Err(Cancelled);
+                }
+                let run = first..(first + RUN).min(level.elements.len());
+                Ok(run.filter(|&e| wants(e)).map(|e| e as u32).collect())
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(runs.concat())
+    }
+
+    /// Splits elements of the deepest level, if the limit allows it.
+    fn split(&mut self, marked: &[u32]) -> Result<bool, RefineError> {
+        let forest = self.forest.as_mut().expect("the forest that was marked");
+        let depth = forest.levels.len() - 1;
+        let level = forest.base_level + depth as u8 + 1;
+        let quads = forest.leaf_count() as u64 + 3 * marked.len() as u64;
+        check_size(self.options, level, quads)?;
+        forest.split(depth, marked);
+        Ok(!marked.is_empty())
+    }
+}
+
+/// Refuses a mesh of more quads than the options allow.
+fn check_size(options: &QuadOptions, level: u8, quads: u64) -> Result<(), RefineError> {
+    let limit = options.max_quads;
+    if quads > limit { Err(RefineError::TooManyQuads { level, quads, limit }) } else { Ok(()) }
+}
+
+/// The deepest level's elements; none of them is refined.
+fn deepest(forest: &QuadForest) -> &[[NodeId; 4]] {
+    &forest.levels.last().expect("a forest has a base level").elements
+}
+
+fn corners(positions: &[Point], element: &[NodeId; 4]) -> [Point; 4] {
+    element.map(|n| positions[n.index()])
+}
+
+/// The mean of a polygon's nodes and the length of its longest edge.
+fn outline(points: &[Point]) -> (Point, f64) {
+    let mut longest = 0.0_f64;
+    let mut before = points[points.len() - 1];
+    for &p in points {
+        longest = longest.max(p.distance_squared(before));
+        before = p;
+    }
+    (points.iter().sum::<Point>() / points.len() as f64, longest.sqrt())
+}
+
+/// True if element `e` is longer than the caller's target for it.
+fn exceeds(targets: Option<&[f64]>, e: usize, longest: f64) -> bool {
+    targets.is_some_and(|targets| longest > targets[e])
+}
