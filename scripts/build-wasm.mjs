@@ -1,0 +1,121 @@
+// Builds the WebAssembly modules into www/wasm/ (not under version control):
+//
+//     www/wasm/mesher/          mesher.js mesher.wasm                   the mesher on one thread
+//     www/wasm/mesher-threads/  mesher-threads.js mesher-threads.wasm   the mesher on a pool of workers
+//     www/wasm/viewer/          viewer.js viewer.wasm                   the WebGL renderer
+//
+// Each .js has its .d.ts beside it and takes the module's address or bytes as an argument of its
+// default export: `await init({ module_or_path: new URL('../wasm/viewer/viewer.wasm', import.meta.url) })`.
+//
+//     npm run build:wasm [-- FLAVOUR…]
+//
+// cargo knows which sources changed; what follows is skipped while cargo's output stays the same.
+
+import { createHash } from 'node:crypto';
+import { existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { gzipSync } from 'node:zlib';
+
+import { setUpWasmBindgen } from './setup.mjs';
+import { Failure, isMain, main, must, output, root } from './shell.mjs';
+
+const TARGET = 'wasm32-unknown-unknown';
+const OUT = join(root, 'www', 'wasm');
+
+/** 2 GiB, the most shared memory that every browser gives. */
+const MAX_SHARED_MEMORY = 2147483648;
+
+// Atomics in std need std built anew; wasm-bindgen reads the exported symbols to give each thread its
+// own storage. RUSTC_BOOTSTRAP lets the pinned stable toolchain take -Z build-std.
+const THREADS_FLAGS = [
+  '-C target-feature=+atomics,+bulk-memory,+mutable-globals,+simd128',
+  '-C link-arg=--shared-memory',
+  '-C link-arg=--import-memory',
+  `-C link-arg=--max-memory=${MAX_SHARED_MEMORY}`,
+  ...['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base'].map((name) => `-C link-arg=--export=${name}`),
+].join(' ');
+
+const FLAVOURS = [
+  { name: 'mesher', features: 'mesher', optimize: '-O3' },
+  {
+    name: 'mesher-threads',
+    features: 'threads',
+    optimize: '-O3',
+    cargo: ['-Z', 'build-std=std,panic_abort'],
+    env: { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: THREADS_FLAGS },
+  },
+  { name: 'viewer', features: 'viewer', profile: 'viewer' },
+];
+
+/** Builds the named flavours (all by default), two at a time, and resolves to a line about each. */
+export async function buildWasm(names = FLAVOURS.map((flavour) => flavour.name)) {
+  const unknown = names.filter((name) => !FLAVOURS.some((flavour) => flavour.name === name));
+  if (unknown.length > 0) {
+    throw new Failure(`No such flavour: ${unknown.join(', ')}. There are ${FLAVOURS.map((f) => f.name).join(', ')}.`);
+  }
+  await setUpWasmBindgen();
+  const waiting = FLAVOURS.filter((flavour) => names.includes(flavour.name));
+  const lines = [];
+  const work = async () => {
+    for (let flavour = waiting.shift(); flavour; flavour = waiting.shift()) lines.push(await buildFlavour(flavour));
+  };
+  // Linking with full LTO keeps one core busy for most of a build.
+  await Promise.all([work(), work()]);
+  return lines.sort();
+}
+
+async function buildFlavour(flavour) {
+  const compiled = await compile(flavour);
+  const folder = join(OUT, flavour.name);
+  const stamp = join(folder, '.stamp');
+  const recipe = [compiled, JSON.stringify(flavour), output('wasm-bindgen', ['--version'])];
+  const hash = recipe.reduce((sum, part) => sum.update(part), createHash('sha256')).digest('hex');
+  if (!existsSync(stamp) || readFileSync(stamp, 'utf8') !== hash) {
+    rmSync(folder, { recursive: true, force: true });
+    mkdirSync(folder, { recursive: true });
+    await bind(flavour, folder);
+    writeFileSync(stamp, hash);
+  }
+  const wasm = readFileSync(join(folder, `${flavour.name}.wasm`));
+  const kilobytes = (bytes) => `${(bytes / 1000).toFixed(0)} KB`;
+  return `${flavour.name}.wasm: ${kilobytes(wasm.length)}, gzip ${kilobytes(gzipSync(wasm, { level: 9 }).length)}`;
+}
+
+/** What cargo makes of the flavour: the bytes of the module. A target folder each, so that flags never clash. */
+async function compile({ name, features, profile = 'release', cargo = [], env = {} }) {
+  const targetFolder = targetFolderOf(name);
+  const args = ['rustc', '--lib', '--crate-type', 'cdylib', '--target', TARGET, '--profile', profile];
+  const selection = ['--no-default-features', '--features', features, '--target-dir', targetFolder];
+  await must('cargo', [...args, ...selection, ...cargo], { env });
+  return readFileSync(compiledPath(name, profile));
+}
+
+function targetFolderOf(name) {
+  return join(root, 'target', 'wasm', name);
+}
+
+function compiledPath(name, profile) {
+  return join(targetFolderOf(name), TARGET, profile, 'hexmill.wasm');
+}
+
+/** Makes the JavaScript side with wasm-bindgen and optimizes the module with Binaryen. */
+async function bind({ name, profile = 'release', optimize }, folder) {
+  // Without a default path bundlers do not look for the module beside the JavaScript: callers name it.
+  const how = ['--target', 'web', '--omit-default-module-path', '--out-dir', folder, '--out-name', name];
+  await must('wasm-bindgen', [compiledPath(name, profile), ...how]);
+  const bound = join(folder, `${name}_bg.wasm`);
+  const wasm = join(folder, `${name}.wasm`);
+  if (optimize) {
+    const binaryen = join(root, 'node_modules', '.bin', 'wasm-opt');
+    await must(binaryen, [bound, '-o', wasm, optimize, '--all-features', '--strip-producers']);
+    rmSync(bound);
+  } else {
+    renameSync(bound, wasm);
+  }
+}
+
+if (isMain(import.meta.url)) {
+  await main(async (names) => {
+    for (const line of await buildWasm(names.length > 0 ? names : undefined)) console.log(line);
+  });
+}
