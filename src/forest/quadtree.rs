@@ -26,10 +26,10 @@ pub struct Level {
     pub is_refined: Vec<bool>,
     /// The edges, as far as they were needed.
     pub(crate) edges: LevelEdges,
-    /// The coarse face of each run of `siblings` elements.
+    /// The coarse face of each run of `1 << siblings` elements.
     roots: Vec<FaceId>,
-    /// How many successive elements share an entry of `roots`: 1 at the base of the forest, else 4.
-    siblings: usize,
+    /// Whether each element has its own entry in `roots` (0, at the base) or four siblings share one (2).
+    siblings: u8,
 }
 
 /// The edges of one level. They are made when an element of the level is first refined.
@@ -67,7 +67,7 @@ impl Level {
 
     /// The coarse face that element `e` is part of.
     pub fn root(&self, e: usize) -> FaceId {
-        self.roots[e / self.siblings]
+        self.roots[e >> self.siblings]
     }
 
     /// The coarse face of every element, in order.
@@ -114,7 +114,7 @@ impl QuadForest {
         }
         self.complete_edges_of(depth);
         if depth + 1 == self.levels.len() {
-            self.levels.push(Level { siblings: 4, ..Level::default() });
+            self.levels.push(Level { siblings: 2, ..Level::default() });
         }
         let face_nodes = self.add_nodes(depth, marked);
         let (parents, children) = self.levels.split_at_mut(depth + 1);

@@ -190,6 +190,9 @@ impl<'a> QuadRefinement<'a> {
         if number < self.options.levels.unwrap_or(0) {
             return Ok((0..level.elements.len() as u32).collect());
         }
+        if targets.is_none() && self.field.is_idle_from(number) {
+            return Ok(Vec::new());
+        }
         let wants = |e: usize| {
             let corners = corners(&forest.positions, &level.elements[e]);
             let (_, longest) = outline(&corners);

@@ -57,6 +57,12 @@ impl SizeField {
         })
     }
 
+    /// True if no element of this level or deeper is to be refined, whatever its size and place.
+    pub fn is_idle_from(&self, level: u8) -> bool {
+        self.edge_length.is_infinite()
+            && self.regions.iter().all(|r| matches!(r.target, Target::Level(l) if l <= level))
+    }
+
     /// True if the element is to be refined.
     pub fn wants(&self, element: &SizedElement) -> bool {
         element.longest > self.edge_length
