@@ -1,5 +1,6 @@
 //! Meshes: ids, structure-of-arrays meshes, topology, checks, quality.
 
+pub mod check;
 mod faces;
 mod hex;
 mod id;
@@ -8,6 +9,7 @@ mod quad;
 mod tags;
 pub mod topology;
 
+pub use check::{Defect, check_polygons, check_quads};
 pub use faces::Faces;
 pub use hex::HexMesh;
 pub use id::{EdgeId, FaceId, HexId, NodeId};

@@ -1,0 +1,229 @@
+//! What can be wrong with a surface mesh.
+
+use serde::Serialize;
+
+use crate::mesh::{FaceId, NodeId};
+
+/// One thing wrong with a mesh, with the ids at fault. Ids count from 0.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "camelCase", rename_all_fields = "camelCase")]
+pub enum Defect {
+    /// The table of faces does not add up: see the invariants of `PolygonMesh`.
+    BrokenOffsets {
+        /// The first face whose corners are not where they should be.
+        face: FaceId,
+    },
+    /// A face with fewer than three nodes.
+    TooFewNodes {
+        /// The face.
+        face: FaceId,
+        /// How many nodes it has.
+        count: u32,
+    },
+    /// A face names a node that does not exist.
+    NodeOutOfRange {
+        /// The face.
+        face: FaceId,
+        /// What it names.
+        node: NodeId,
+        /// How many nodes there are.
+        nodes: u32,
+    },
+    /// A coordinate is infinite or not a number.
+    NotFinite {
+        /// The node.
+        node: NodeId,
+    },
+    /// A face meets a node twice.
+    RepeatedNode {
+        /// The face.
+        face: FaceId,
+        /// The node.
+        node: NodeId,
+    },
+    /// Two faces have the same set of nodes.
+    SameNodes {
+        /// The faces, the earlier first.
+        faces: [FaceId; 2],
+    },
+    /// A node lies inside an edge that does not end there, so that the faces beside the edge and those
+    /// around the node do not fit together.
+    HangingNode {
+        /// The node.
+        node: NodeId,
+        /// The ends of the edge.
+        edge: [NodeId; 2],
+    },
+    /// A node that no face uses.
+    UnusedNode {
+        /// The node.
+        node: NodeId,
+    },
+    /// Three or more faces meet at an edge.
+    NonManifoldEdge {
+        /// The ends of the edge.
+        edge: [NodeId; 2],
+        /// The faces.
+        faces: Vec<FaceId>,
+    },
+    /// The faces around a node form several fans that share the node alone.
+    NonManifoldNode {
+        /// The node.
+        node: NodeId,
+        /// How many fans there are.
+        fans: u32,
+    },
+    /// Two faces walk their common edge in the same direction, so that their normals disagree.
+    Disagreement {
+        /// The ends of the edge, in the direction in which both walk it.
+        edge: [NodeId; 2],
+        /// The faces.
+        faces: [FaceId; 2],
+    },
+    /// A face without area.
+    ZeroArea {
+        /// The face.
+        face: FaceId,
+    },
+}
+
+/// How bad a [`Defect`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Severity {
+    /// The mesh is conforming; the finding is reported because few expect it. Open, non-manifold and
+    /// inconsistently oriented surfaces are a matter of what is modelled.
+    Note,
+    /// The mesh is not a conforming mesh: two faces meet in something other than nothing, a common
+    /// node or a common edge, or a face is no polygon at all.
+    Error,
+}
+
+impl Defect {
+    /// A stable name of the kind of defect, the same as `kind` in JSON.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::BrokenOffsets { .. } => "brokenOffsets",
+            Self::TooFewNodes { .. } => "tooFewNodes",
+            Self::NodeOutOfRange { .. } => "nodeOutOfRange",
+            Self::NotFinite { .. } => "notFinite",
+            Self::RepeatedNode { .. } => "repeatedNode",
+            Self::SameNodes { .. } => "sameNodes",
+            Self::HangingNode { .. } => "hangingNode",
+            Self::UnusedNode { .. } => "unusedNode",
+            Self::NonManifoldEdge { .. } => "nonManifoldEdge",
+            Self::NonManifoldNode { .. } => "nonManifoldNode",
+            Self::Disagreement { .. } => "disagreement",
+            Self::ZeroArea { .. } => "zeroArea",
+        }
+    }
+
+    /// How bad it is.
+    pub fn severity(&self) -> Severity {
+        match self {
+            Self::BrokenOffsets { .. }
+            | Self::TooFewNodes { .. }
+            | Self::NodeOutOfRange { .. }
+            | Self::NotFinite { .. }
+            | Self::RepeatedNode { .. }
+            | Self::SameNodes { .. }
+            | Self::HangingNode { .. } => Severity::Error,
+            Self::UnusedNode { .. }
+            | Self::NonManifoldEdge { .. }
+            | Self::NonManifoldNode { .. }
+            | Self::Disagreement { .. }
+            | Self::ZeroArea { .. } => Severity::Note,
+        }
+    }
+
+    /// True if the mesh is not conforming because of it.
+    pub fn is_error(&self) -> bool {
+        self.severity() == Severity::Error
+    }
+}
+
+impl std::fmt::Display for Defect {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::BrokenOffsets { face } => {
+                write!(f, "the corners of face {face} are not where its offsets say")
+            }
+            Self::TooFewNodes { face, count } => {
+                write!(f, "face {face} has {count} nodes; a face needs at least 3")
+            }
+            Self::NodeOutOfRange { face, node, nodes } => {
+                write!(f, "face {face} names node {node}, but there are only {nodes} nodes")
+            }
+            Self::NotFinite { node } => write!(f, "node {node} has a coordinate that is not a finite number"),
+            Self::RepeatedNode { face, node } => write!(f, "face {face} meets node {node} twice"),
+            Self::SameNodes { faces: [a, b] } => write!(f, "faces {a} and {b} have the same nodes"),
+            Self::HangingNode { node, edge: [a, b] } => {
+                write!(f, "node {node} hangs inside the edge {a}\u{2013}{b}")
+            }
+            Self::UnusedNode { node } => write!(f, "node {node} is used by no face"),
+            Self::NonManifoldEdge { edge: [a, b], faces } => {
+                write!(f, "{} faces meet at the edge {a}\u{2013}{b}: {}", faces.len(), listed(faces))
+            }
+            Self::NonManifoldNode { node, fans } => {
+                write!(f, "{fans} fans of faces share node {node} and nothing else there")
+            }
+            Self::Disagreement { edge: [a, b], faces: [g, h] } => {
+                write!(f, "faces {g} and {h} both walk the edge from {a} to {b}, so their normals disagree")
+            }
+            Self::ZeroArea { face } => write!(f, "face {face} has no area"),
+        }
+    }
+}
+
+/// The first few ids in words.
+fn listed(faces: &[FaceId]) -> String {
+    const SHOWN: usize = 8;
+    let mut words: Vec<String> = faces.iter().take(SHOWN).map(ToString::to_string).collect();
+    if faces.len() > SHOWN {
+        words.push("\u{2026}".into());
+    }
+    words.join(", ")
+}
+
+/// How many defects of one kind there are.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct DefectCount {
+    /// The kind, as [`Defect::kind`].
+    pub kind: &'static str,
+    /// How bad it is.
+    pub severity: Severity,
+    /// How many.
+    pub count: usize,
+    /// The first of them.
+    pub first: Defect,
+}
+
+impl std::fmt::Display for DefectCount {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.first.fmt(f)?;
+        match self.count {
+            1 => Ok(()),
+            2 => f.write_str(" (and 1 more like it)"),
+            n => write!(f, " (and {} more like it)", n - 1),
+        }
+    }
+}
+
+/// Sums defects up: one entry a kind, errors first, then in order of first appearance.
+pub fn summary(defects: &[Defect]) -> Vec<DefectCount> {
+    let mut counts: Vec<DefectCount> = Vec::new();
+    for defect in defects {
+        match counts.iter_mut().find(|c| c.kind == defect.kind()) {
+            Some(c) => c.count += 1,
+            None => counts.push(DefectCount {
+                kind: defect.kind(),
+                severity: defect.severity(),
+                count: 1,
+                first: defect.clone(),
+            }),
+        }
+    }
+    counts.sort_by_key(|c| std::cmp::Reverse(c.severity));
+    counts
+}
