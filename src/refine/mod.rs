@@ -18,6 +18,7 @@
 //! ```
 
 mod conform;
+mod demand;
 mod estimate;
 mod options;
 mod quad;

@@ -96,13 +96,13 @@ pub enum RefineError {
     Sizing(#[from] SizingError),
     /// The mesh would have more quads than allowed.
     #[error(
-        "level {level} would bring the mesh to {quads} quads, more than the limit of {limit}; \
+        "level {level} would bring the mesh to about {quads} quads, more than the limit of {limit}; \
          raise the edge length or the limit"
     )]
     TooManyQuads {
-        /// The level that was being made.
+        /// The level that would do so.
         level: u8,
-        /// How many quads it would come to.
+        /// How many quads it would come to, about.
         quads: u64,
         /// The limit.
         limit: u64,

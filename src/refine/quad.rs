@@ -10,7 +10,7 @@
 //! and on planar faces the area are the input's.
 //!
 //! **Refuses** surfaces with invalid faces, options out of range, and results over the limit of quads; the limit
-//! is checked before each level is made.
+//! is held against an estimate before the work, and against the count before each level is made.
 //!
 //! **Departures from the paper.** Polygons are welcome: an n-gon's first refinement makes n quads. If nothing is
 //! to be refined, an all-quad mesh comes back as it is. Coarse quads can be kept (see `forest::base`).
@@ -18,11 +18,12 @@
 use rayon::prelude::*;
 
 use super::conform::conform;
-use super::options::{QuadOptions, RefineError, RefinedQuads, validate};
+use super::demand::{Demand, corner_quads, face_points, outline};
+use super::estimate::refuse_absurd;
+use super::options::{QuadOptions, RefineError, RefinedQuads};
 use crate::forest::QuadForest;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, NodeId, PolygonMesh};
-use crate::sizing::{SizeField, SizeOptions, SizedElement};
 use crate::{Cancelled, Monitor, Stage};
 
 /// Elements are sized in runs of this many; the monitor is asked before each run.
@@ -40,6 +41,16 @@ pub fn refine_quads(
     options: &QuadOptions,
     monitor: &dyn Monitor,
 ) -> Result<RefinedQuads, RefineError> {
+    refuse_absurd(input, &Demand::new(input, options)?, options)?;
+    refine_within(input, options, monitor)
+}
+
+/// Refines `input`, and stops as soon as the limit of quads is passed.
+pub(super) fn refine_within(
+    input: &PolygonMesh,
+    options: &QuadOptions,
+    monitor: &dyn Monitor,
+) -> Result<RefinedQuads, RefineError> {
     let mut refinement = QuadRefinement::new(input, options)?;
     while refinement.advance(None, monitor)? {}
     refinement.finish(monitor)
@@ -49,7 +60,7 @@ pub fn refine_quads(
 pub struct QuadRefinement<'a> {
     input: &'a PolygonMesh,
     options: &'a QuadOptions,
-    field: SizeField,
+    demand: Demand,
     /// None while the input's faces wait for the first decision.
     forest: Option<QuadForest>,
     /// Elements of the deepest level that would have been refined further, were it not for `max_levels`.
@@ -71,27 +82,19 @@ impl<'a> QuadRefinement<'a> {
     /// # Errors
     /// If the input is no valid surface or an option is out of range.
     pub fn new(input: &'a PolygonMesh, options: &'a QuadOptions) -> Result<Self, RefineError> {
-        validate(input, options)?;
-        let field = SizeField::new(
-            input,
-            SizeOptions {
-                edge_length: options.edge_length,
-                curvature: options.curvature,
-                gradation: options.gradation,
-                regions: &options.regions,
-            },
-        )?;
+        let demand = Demand::new(input, options)?;
         let forest = if options.keep_coarse { Some(QuadForest::coarse(input)?) } else { None };
-        Ok(Self { input, options, field, forest, capped: 0 })
+        Ok(Self { input, options, demand, forest, capped: 0 })
     }
 
     /// The elements that the next [`advance`](Self::advance) decides on: the input's faces at first, then the
     /// elements that the last one made.
     pub fn candidates(&self) -> Candidates {
         let (centers, longest) = match &self.forest {
-            None => {
-                (0..self.input.face_count()).into_par_iter().map(|f| outline(&self.face_points(f))).unzip()
-            }
+            None => (0..self.input.face_count())
+                .into_par_iter()
+                .map(|f| outline(&face_points(self.input, f)))
+                .unzip(),
             Some(forest) => deepest(forest)
                 .par_iter()
                 .map(|element| outline(&corners(&forest.positions, element)))
@@ -149,9 +152,9 @@ impl<'a> QuadRefinement<'a> {
         monitor.checkpoint(REFINE, 0.0)?;
         let input = self.input;
         let wanted = (0..input.face_count()).into_par_iter().any(|f| {
-            let points = self.face_points(f);
-            let (center, longest) = outline(&points);
-            exceeds(targets, f, longest) || self.wants_face(f, &points, center, longest)
+            let points = face_points(input, f);
+            let (_, longest) = outline(&points);
+            exceeds(targets, f, longest) || self.wants_face(f, &points, longest)
         });
         let all_quad = input.is_all_quad();
         if all_quad && !(wanted && self.options.max_levels > 0) {
@@ -163,19 +166,9 @@ impl<'a> QuadRefinement<'a> {
         Ok(true)
     }
 
-    fn face_points(&self, f: usize) -> Vec<Point> {
-        self.input.face(f).iter().map(|n| self.input.positions[n.index()]).collect()
-    }
-
-    /// True if some part of face `f`, one quad at each corner, is wanted finer.
-    fn wants_face(&self, f: usize, points: &[Point], center: Point, longest: f64) -> bool {
-        let n = points.len();
-        self.options.levels.is_some_and(|levels| levels > 0)
-            || (0..n).any(|i| {
-                let (here, before, after) = (points[i], points[(i + n - 1) % n], points[(i + 1) % n]);
-                let corners = [here, (here + after) * 0.5, center, (before + here) * 0.5];
-                self.field.wants(&SizedElement { corners, longest, level: 0, root: FaceId::new(f) })
-            })
+    /// True if some part of face `f` is wanted finer.
+    fn wants_face(&self, f: usize, points: &[Point], longest: f64) -> bool {
+        corner_quads(points).any(|corners| self.demand.wants(corners, longest, 0, FaceId::new(f)))
     }
 
     /// The elements of the deepest level that options or `targets` want finer.
@@ -187,17 +180,16 @@ impl<'a> QuadRefinement<'a> {
     ) -> Result<Vec<u32>, Cancelled> {
         let level = forest.levels.last().expect("a forest has a base level");
         let number = forest.base_level + (forest.levels.len() - 1) as u8;
-        if number < self.options.levels.unwrap_or(0) {
+        if self.demand.is_uniform_at(number) {
             return Ok((0..level.elements.len() as u32).collect());
         }
-        if targets.is_none() && self.field.is_idle_from(number) {
+        if targets.is_none() && self.demand.is_idle_from(number) {
             return Ok(Vec::new());
         }
         let wants = |e: usize| {
             let corners = corners(&forest.positions, &level.elements[e]);
             let (_, longest) = outline(&corners);
-            exceeds(targets, e, longest)
-                || self.field.wants(&SizedElement { corners, longest, level: number, root: level.root(e) })
+            exceeds(targets, e, longest) || self.demand.wants(corners, longest, number, level.root(e))
         };
         let runs: Vec<Vec<u32>> = (0..level.elements.len())
             .into_par_iter()
@@ -238,17 +230,6 @@ fn deepest(forest: &QuadForest) -> &[[NodeId; 4]] {
 
 fn corners(positions: &[Point], element: &[NodeId; 4]) -> [Point; 4] {
     element.map(|n| positions[n.index()])
-}
-
-/// The mean of a polygon's nodes and the length of its longest edge.
-fn outline(points: &[Point]) -> (Point, f64) {
-    let mut longest = 0.0_f64;
-    let mut before = points[points.len() - 1];
-    for &p in points {
-        longest = longest.max(p.distance_squared(before));
-        before = p;
-    }
-    (points.iter().sum::<Point>() / points.len() as f64, longest.sqrt())
 }
 
 /// True if element `e` is longer than the caller's target for it.

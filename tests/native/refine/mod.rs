@@ -1,5 +1,6 @@
 //! Conforming refinement of quad meshes.
 
+mod estimate;
 mod exhaustive;
 mod judge;
 mod random;

@@ -1,0 +1,63 @@
+//! Which elements the options want finer: what refinement and its estimate have in common.
+
+use super::options::{QuadOptions, RefineError, validate};
+use crate::geometry::Point;
+use crate::mesh::{FaceId, PolygonMesh};
+use crate::sizing::{SizeField, SizeOptions, SizedElement};
+
+/// The options, checked and made ready for many questions.
+pub(super) struct Demand {
+    /// Every element of a lower level is wanted finer.
+    everywhere: u8,
+    field: SizeField,
+}
+
+impl Demand {
+    pub fn new(input: &PolygonMesh, options: &QuadOptions) -> Result<Self, RefineError> {
+        validate(input, options)?;
+        let &QuadOptions { edge_length, curvature, gradation, ref regions, .. } = options;
+        let field = SizeField::new(input, SizeOptions { edge_length, curvature, gradation, regions })?;
+        Ok(Self { everywhere: options.levels.unwrap_or(0), field })
+    }
+
+    /// True if every element of `level` is wanted finer.
+    pub fn is_uniform_at(&self, level: u8) -> bool {
+        level < self.everywhere
+    }
+
+    /// True if no element of `level` or deeper can be wanted finer.
+    pub fn is_idle_from(&self, level: u8) -> bool {
+        !self.is_uniform_at(level) && self.field.is_idle_from(level)
+    }
+
+    /// True if an element of `level`, part of input face `root`, is wanted finer.
+    pub fn wants(&self, corners: [Point; 4], longest: f64, level: u8, root: FaceId) -> bool {
+        self.is_uniform_at(level) || self.field.wants(&SizedElement { corners, longest, level, root })
+    }
+}
+
+/// The positions of the nodes of an input face.
+pub(super) fn face_points(input: &PolygonMesh, face: usize) -> Vec<Point> {
+    input.face(face).iter().map(|n| input.positions[n.index()]).collect()
+}
+
+/// The quads of a polygon's first refinement: one at each corner.
+pub(super) fn corner_quads(points: &[Point]) -> impl Iterator<Item = [Point; 4]> + '_ {
+    let n = points.len();
+    let (center, _) = outline(points);
+    (0..n).map(move |i| {
+        let (here, before, after) = (points[i], points[(i + n - 1) % n], points[(i + 1) % n]);
+        [here, (here + after) * 0.5, center, (before + here) * 0.5]
+    })
+}
+
+/// The mean of a polygon's nodes and the length of its longest edge.
+pub(super) fn outline(points: &[Point]) -> (Point, f64) {
+    let mut longest = 0.0_f64;
+    let mut before = points[points.len() - 1];
+    for &p in points {
+        longest = longest.max(p.distance_squared(before));
+        before = p;
+    }
+    (points.iter().sum::<Point>() / points.len() as f64, longest.sqrt())
+}

@@ -1,0 +1,65 @@
+//! Estimates against the results that they foretell.
+
+use hexmill::Silent;
+use hexmill::geometry::Point;
+use hexmill::mesh::PolygonMesh;
+use hexmill::refine::{QuadOptions, RefineError, estimate_quads, refine_quads};
+use hexmill::sizing::{Region, Shape, Target};
+
+use super::worlds::{cube, grid, mixed_strip};
+
+fn sphere(center: [f64; 3], radius: f64, target: Target) -> Region {
+    Region { shape: Shape::Sphere { center: Point::from(center), radius }, target }
+}
+
+/// The estimate's quads over the result's.
+fn ratio(input: &PolygonMesh, options: &QuadOptions) -> f64 {
+    let estimate = estimate_quads(input, options).expect("valid input");
+    let refined = refine_quads(input, options, &Silent).expect("valid input");
+    assert_eq!(estimate.levels, *refined.level.iter().max().unwrap());
+    if estimate.exact {
+        assert_eq!(estimate.nodes, refined.mesh.positions.len() as u64);
+    }
+    estimate.quads as f64 / refined.mesh.quads.len() as f64
+}
+
+#[test]
+fn small_results_are_counted_exactly() {
+    for input in [cube(), grid(3, 2), mixed_strip()] {
+        let options = QuadOptions {
+            regions: vec![sphere([0.5, 0.5, 0.0], 0.6, Target::Level(4))],
+            ..QuadOptions::default()
+        };
+        assert_eq!(ratio(&input, &options), 1.0);
+        assert_eq!(ratio(&input, &QuadOptions::default()), 1.0);
+    }
+}
+
+#[test]
+fn uniform_results_are_foretold_exactly() {
+    for keep_coarse in [false, true] {
+        let options = QuadOptions { levels: Some(5), keep_coarse, ..QuadOptions::default() };
+        assert_eq!(ratio(&grid(20, 17), &options), 1.0);
+    }
+}
+
+#[test]
+fn large_adaptive_results_are_foretold_within_15_percent() {
+    let by_level = sphere([10.0, 9.0, 0.0], 6.0, Target::Level(6));
+    let by_size = sphere([10.0, 9.0, 0.0], 6.0, Target::Size(0.02));
+    for region in [by_level, by_size] {
+        let options = QuadOptions { regions: vec![region], ..QuadOptions::default() };
+        let ratio = ratio(&grid(20, 17), &options);
+        assert!((0.85..1.15).contains(&ratio), "estimate over result: {ratio}");
+    }
+}
+
+#[test]
+fn an_absurd_request_is_estimated_at_once_and_refused_before_it_is_made() {
+    let options = QuadOptions { edge_length: Some(1e-8), max_levels: 30, ..QuadOptions::default() };
+    let estimate = estimate_quads(&grid(20, 20), &options).expect("an estimate");
+    assert!(estimate.quads > 1_000_000_000_000_000 && !estimate.exact);
+    let refusal = refine_quads(&grid(20, 20), &options, &Silent).expect_err("too large");
+    assert!(matches!(refusal, RefineError::TooManyQuads { limit: 64_000_000, .. }), "{refusal}");
+    assert_eq!(refusal.code(), "too-many-quads");
+}
