@@ -35,12 +35,24 @@ const THREADS_FLAGS = [
   ...['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base'].map((name) => `-C link-arg=--export=${name}`),
 ].join(' ');
 
+// What the modules may use; wasm-opt would otherwise take only what it finds marked in them.
+const BINARYEN_FEATURES = [
+  'bulk-memory',
+  'bulk-memory-opt',
+  'multivalue',
+  'mutable-globals',
+  'nontrapping-float-to-int',
+  'reference-types',
+  'sign-ext',
+  'simd',
+].map((feature) => `--enable-${feature}`);
+
 const FLAVOURS = [
-  { name: 'mesher', features: 'mesher', optimize: '-O3' },
+  { name: 'mesher', features: 'mesher', optimize: ['-O3'] },
   {
     name: 'mesher-threads',
     features: 'threads',
-    optimize: '-O3',
+    optimize: ['-O3', '--enable-threads'],
     cargo: ['-Z', 'build-std=std,panic_abort'],
     env: { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: THREADS_FLAGS },
   },
@@ -107,7 +119,7 @@ async function bind({ name, profile = 'release', optimize }, folder) {
   const wasm = join(folder, `${name}.wasm`);
   if (optimize) {
     const binaryen = join(root, 'node_modules', '.bin', 'wasm-opt');
-    await must(binaryen, [bound, '-o', wasm, optimize, '--all-features', '--strip-producers']);
+    await must(binaryen, [bound, '-o', wasm, ...BINARYEN_FEATURES, ...optimize]);
     rmSync(bound);
   } else {
     renameSync(bound, wasm);
