@@ -35,32 +35,53 @@ fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
     }
 }
 
-/// The modules that a line names by `crate::…` or `hexmill::…`.
-fn modules_named(line: &str) -> Vec<String> {
-    let code = line.split("//").next().unwrap_or_default();
+/// The modules that code names by `crate::…` or `hexmill::…`, comments aside.
+fn modules_named(source: &str) -> Vec<String> {
+    let code: String = source.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
     let mut names = Vec::new();
     for prefix in ["crate::", "hexmill::"] {
         for (at, _) in code.match_indices(prefix) {
             let rest = &code[at + prefix.len()..];
-            let list = rest.strip_prefix('{').map_or(rest, |inner| inner.split('}').next().unwrap_or(inner));
-            let many = rest.starts_with('{');
-            for item in list.split(',').take(if many { usize::MAX } else { 1 }) {
-                let name: String =
-                    item.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-                names.push(name);
-            }
+            let items: Vec<&str> = match rest.strip_prefix('{') {
+                Some(inner) => top_level_items(inner),
+                None => vec![rest],
+            };
+            let name = |item: &str| -> String {
+                item.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+            };
+            names.extend(items.into_iter().map(name).filter(|n| !n.is_empty()));
         }
     }
     names
+}
+
+/// The items of a use list up to its closing brace, split at the commas that stand in no inner braces.
+fn top_level_items(list: &str) -> Vec<&str> {
+    let (mut depth, mut start, mut items) = (0, 0, Vec::new());
+    for (at, c) in list.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth == 0 => {
+                items.push(&list[start..at]);
+                return items;
+            }
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                items.push(&list[start..at]);
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    items
 }
 
 /// One line of complaint for each use that goes against the arrow.
 fn violations(module: &str, source: &str) -> Vec<String> {
     let ranks = ranks();
     let rank = ranks[module];
-    source
-        .lines()
-        .flat_map(modules_named)
+    modules_named(source)
+        .into_iter()
         .filter(|name| name != module && !ROOT_EXPORTS.contains(&name.as_str()))
         .filter_map(|name| match ranks.get(name.as_str()) {
             Some(&other) if other < rank => None,
@@ -97,6 +118,7 @@ fn imports_follow_the_arrow() {
 fn the_check_sees_a_bent_arrow() {
     assert_eq!(violations("mesh", "use crate::refine::QuadOptions;").len(), 1);
     assert_eq!(violations("io", "use crate::{geometry::Point, scene::Camera};").len(), 1);
+    assert_eq!(violations("io", "use crate::{\n    mesh::{NodeId, QuadMesh},\n    scene,\n};").len(), 1);
     assert_eq!(violations("io", "use crate::mesh::NodeId; // crate::scene").len(), 0);
     assert_eq!(violations("refine", "use crate::{Cancelled, Monitor};").len(), 0);
 }

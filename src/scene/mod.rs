@@ -1,1 +1,27 @@
-//! placeholder
+//! Meshes as draw buffers, camera, picking, regions and their handles. No GPU: all of it is tested
+//! natively; `render` only uploads and draws what is made here.
+//!
+//! # Spaces
+//!
+//! *World* is the model's own space, f64. *Scene* is world moved to the middle of the mesh and scaled
+//! to about unit size, f32: far-from-origin and tiny or huge models keep all of f32's digits, see
+//! [`Frame`]. *Pixels* are CSS pixels, x to the right and y down from the canvas's upper left corner.
+//! Transforms are named `to_from`: `clip_from_scene` takes scene points to clip space.
+
+mod bvh;
+mod camera;
+mod colour;
+mod frame;
+mod state;
+mod surface;
+mod theme;
+mod triangulate;
+
+pub use bvh::{Bvh, Hit};
+pub use camera::{Axis, Camera, Projection, Ray, Viewport};
+pub use colour::{ColourMap, NO_VALUE, Palette, colour_index};
+pub use frame::Frame;
+pub use state::{Scene, Style};
+pub use surface::{Surface, SurfaceError, TriangleBuffers};
+pub use theme::{Background, Rgba, Theme};
+pub use triangulate::triangulate;

@@ -15,3 +15,5 @@ mod quads;
 mod refinement;
 #[cfg(feature = "mesher")]
 mod surface;
+#[cfg(all(feature = "viewer", target_arch = "wasm32"))]
+mod viewer;

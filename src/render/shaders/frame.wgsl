@@ -1,0 +1,23 @@
+// What all drawables share: one uniform a frame, and conversions of clip space.
+
+struct Frame {
+    clip_from_scene: mat4x4<f32>,
+    // Directions: scene to view, x right, y up, z towards the eye.
+    view_from_scene: mat4x4<f32>,
+    // The eye in the scene (w = 1), or the direction towards it of an orthographic view (w = 0).
+    eye: vec4<f32>,
+    // Canvas in device pixels, device pixels a CSS pixel, edge width in device pixels.
+    canvas: vec4<f32>,
+    ground_top: vec4<f32>,
+    ground_bottom: vec4<f32>,
+    front: vec4<f32>,
+    back: vec4<f32>,
+    edge: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+// Unit vector from a scene point towards the eye.
+fn towards_eye(position: vec3<f32>) -> vec3<f32> {
+    return normalize(frame.eye.xyz - position * frame.eye.w);
+}

@@ -1,0 +1,105 @@
+// Faces of a polygon surface, flat-shaded, with their edges.
+//
+// A vertex is a node id; positions come from a texture of nodes, what belongs to a face from textures
+// of faces. Edges are drawn by the fragments of the face itself: the distance to a side is its
+// barycentric coordinate over the length of that coordinate's gradient, both in pixels.
+
+struct Mesh {
+    // Log2 of the width of the data textures.
+    width_bits: u32,
+    // 1: faces take their colour from the palette.
+    coloured: u32,
+    // 1: edges are drawn.
+    edges: u32,
+}
+
+@group(1) @binding(0) var<uniform> mesh: Mesh;
+@group(1) @binding(1) var positions: texture_2d<f32>;
+@group(1) @binding(2) var normals: texture_2d<u32>;
+@group(1) @binding(3) var colours: texture_2d<u32>;
+@group(1) @binding(4) var palette: texture_2d<f32>;
+@group(2) @binding(0) var tags: texture_2d<u32>;
+
+const FLAG_BITS: u32 = 4u;
+const FLAG_POLYGON: u32 = 8u;
+
+struct Varying {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) position: vec3<f32>,
+    // Barycentric coordinates; 1 throughout where the side is a diagonal.
+    @location(1) sides: vec3<f32>,
+    @location(2) @interpolate(flat, either) normal: vec3<f32>,
+    @location(3) @interpolate(flat, either) colour: vec3<f32>,
+    // 1: the size of the triangle says nothing of the size of its face.
+    @location(4) @interpolate(flat, either) polygon: f32,
+}
+
+fn texel(index: u32) -> vec2<u32> {
+    return vec2<u32>(index & ((1u << mesh.width_bits) - 1u), index >> mesh.width_bits);
+}
+
+fn unpack_normal(packed: u32) -> vec3<f32> {
+    let octahedral = vec2<f32>(f32(packed & 0xffffu), f32(packed >> 16u)) / 65535.0 * 2.0 - 1.0;
+    let z = 1.0 - abs(octahedral.x) - abs(octahedral.y);
+    let fold = max(-z, 0.0);
+    let signs = select(vec2<f32>(-1.0), vec2<f32>(1.0), octahedral >= vec2<f32>(0.0));
+    return normalize(vec3<f32>(octahedral - fold * signs, z));
+}
+
+@vertex
+fn vertex(@location(0) node: u32, @builtin(vertex_index) index: u32) -> Varying {
+    let tag = textureLoad(tags, texel(index / 3u), 0).x;
+    let face = texel(tag >> FLAG_BITS);
+    let position = textureLoad(positions, texel(node), 0).xyz;
+    let corner = index % 3u;
+    let here = vec3<f32>(f32(corner == 0u), f32(corner == 1u), f32(corner == 2u));
+    let is_diagonal = vec3<f32>(f32((tag & 1u) == 0u), f32((tag & 2u) == 0u), f32((tag & 4u) == 0u));
+    var out: Varying;
+    out.clip = frame.clip_from_scene * vec4<f32>(position, 1.0);
+    out.position = position;
+    out.sides = max(here, is_diagonal);
+    out.normal = unpack_normal(textureLoad(normals, face, 0).x);
+    out.colour = frame.front.rgb;
+    if mesh.coloured != 0u {
+        out.colour = textureLoad(palette, vec2<u32>(textureLoad(colours, face, 0).x, 0u), 0).rgb;
+    }
+    out.polygon = select(0.0, 1.0, (tag & FLAG_POLYGON) != 0u);
+    return out;
+}
+
+// Light from above left of the eye, a weaker one from the right, and from all around.
+fn light(normal: vec3<f32>, to_eye: vec3<f32>) -> f32 {
+    let n = (frame.view_from_scene * vec4<f32>(normal, 0.0)).xyz;
+    let key = max(dot(n, normalize(vec3<f32>(-0.45, 0.65, 0.75))), 0.0);
+    let fill = max(dot(n, normalize(vec3<f32>(0.8, -0.1, 0.5))), 0.0);
+    let head = max(dot(normal, to_eye), 0.0);
+    let sky = 0.5 + 0.5 * n.y;
+    return 0.30 + 0.12 * sky + 0.42 * key + 0.12 * fill + 0.14 * head;
+}
+
+// How much of the pixel the edges cover. They fade where cells are too small to be told apart.
+fn edge_cover(sides: vec3<f32>, polygon: f32) -> f32 {
+    let dx = dpdx(sides);
+    let dy = dpdy(sides);
+    let gradient = max(sqrt(dx * dx + dy * dy), vec3<f32>(1e-9));
+    let half_width = 0.5 * frame.canvas.w;
+    let distance = max(sides, vec3<f32>(0.0)) / gradient;
+    let cover = 1.0 - smoothstep(vec3<f32>(half_width - 0.5), vec3<f32>(half_width + 0.5), distance);
+    let height = 1.0 / gradient;
+    let fade = smoothstep(vec3<f32>(1.5), vec3<f32>(9.0), height / frame.canvas.w);
+    let shown = cover * max(fade, vec3<f32>(polygon));
+    return max(shown.x, max(shown.y, shown.z));
+}
+
+@fragment
+fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) vec4<f32> {
+    let to_eye = towards_eye(in.position);
+    let facing = select(-1.0, 1.0, is_front);
+    var colour = in.colour;
+    if !is_front {
+        colour = select(frame.back.rgb, mix(colour, frame.back.rgb, 0.5), mesh.coloured != 0u);
+    }
+    colour *= light(in.normal * facing, to_eye);
+    let cover = edge_cover(in.sides, in.polygon) * f32(mesh.edges) * frame.edge.a;
+    return vec4<f32>(mix(colour, frame.edge.rgb, cover), 1.0);
+}

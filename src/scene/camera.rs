@@ -1,0 +1,428 @@
+//! The camera: a turntable with Z up that orbits about any point, pans, and zooms to any point.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
+
+use crate::geometry::{Aabb, Point};
+
+/// Vertical field of view: 35 degrees, about a 57 mm lens; wider makes parts look bent.
+const FIELD_OF_VIEW: f64 = 35.0 * PI / 180.0;
+/// Free space around what is framed, as a share of it.
+const FRAME_MARGIN: f64 = 1.08;
+/// Nearest depth drawn as a share of the farthest, so that 24 bits of depth suffice.
+const NEAR_SHARE: f64 = 1e-4;
+/// Steepest view: straight down or up.
+const STEEPEST: f64 = FRAC_PI_2;
+
+/// How depth shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Projection {
+    /// Far things are smaller.
+    #[default]
+    Perspective,
+    /// Parallel lines stay parallel.
+    Orthographic,
+}
+
+/// A direction to look along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+pub enum Axis {
+    /// Along +x: the left side is seen.
+    #[serde(rename = "+x")]
+    PlusX,
+    /// Along -x: the right side is seen.
+    #[serde(rename = "-x")]
+    MinusX,
+    /// Along +y: the front is seen.
+    #[serde(rename = "+y")]
+    PlusY,
+    /// Along -y: the back is seen.
+    #[serde(rename = "-y")]
+    MinusY,
+    /// Along +z: the bottom is seen.
+    #[serde(rename = "+z")]
+    PlusZ,
+    /// Along -z: the top is seen.
+    #[serde(rename = "-z")]
+    MinusZ,
+    /// From the front, right and above.
+    #[serde(rename = "iso")]
+    Iso,
+}
+
+/// Size of the canvas in CSS pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewport {
+    /// Pixels across.
+    pub width: f64,
+    /// Pixels down.
+    pub height: f64,
+}
+
+/// A half-line in world coordinates; the direction is a unit vector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it starts.
+    pub origin: Point,
+    /// Where it goes.
+    pub direction: DVec3,
+}
+
+/// Where the eye is and which way it looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The eye.
+    pub eye: Point,
+    /// Turn about Z of the view direction, from +x.
+    pub yaw: f64,
+    /// Rise of the view direction above the horizon.
+    pub pitch: f64,
+    /// Distance from the eye to what is looked at: sets the scale of the orthographic view and of pans.
+    pub distance: f64,
+    /// How depth shows.
+    pub projection: Projection,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        let unit = Aabb { min: Point::splat(-1.0), max: Point::splat(1.0) };
+        let mut camera =
+            Self { eye: Point::ZERO, yaw: 0.0, pitch: 0.0, distance: 1.0, projection: Projection::default() };
+        camera.turn_to(Axis::Iso);
+        camera.frame(&unit, Viewport { width: 1.0, height: 1.0 });
+        camera
+    }
+}
+
+impl Camera {
+    /// Right, up and forward unit vectors.
+    pub fn axes(&self) -> [DVec3; 3] {
+        let (sin_yaw, cos_yaw) = self.yaw.sin_cos();
+        let (sin_pitch, cos_pitch) = self.pitch.sin_cos();
+        let forward = DVec3::new(cos_pitch * cos_yaw, cos_pitch * sin_yaw, sin_pitch);
+        let right = DVec3::new(sin_yaw, -cos_yaw, 0.0);
+        [right, right.cross(forward), forward]
+    }
+
+    /// The point looked at.
+    pub fn target(&self) -> Point {
+        self.eye + self.axes()[2] * self.distance
+    }
+
+    /// Turns by the given angles about a point, which stays where it is on the screen. The pitch stops
+    /// at straight down and up.
+    pub fn orbit(&mut self, pivot: Point, yaw: f64, pitch: f64) {
+        let before = DMat3::from_cols_array_2d(&self.axes().map(|a| a.to_array()));
+        self.yaw = (self.yaw + yaw).rem_euclid(TAU);
+        self.pitch = (self.pitch + pitch).clamp(-STEEPEST, STEEPEST);
+        let after = DMat3::from_cols_array_2d(&self.axes().map(|a| a.to_array()));
+        self.eye = pivot + after * (before.transpose() * (self.eye - pivot));
+    }
+
+    /// Moves so that what lies at the depth of `grabbed` follows a pointer that goes by `pixels`.
+    pub fn pan(&mut self, grabbed: Point, pixels: DVec2, viewport: Viewport) {
+        let [right, up, _] = self.axes();
+        let size = self.pixel_size(grabbed, viewport);
+        self.eye += (up * pixels.y - right * pixels.x) * size;
+    }
+
+    /// Scales the distance to `anchor`, which stays where it is on the screen. Less than 1: closer.
+    pub fn dolly(&mut self, anchor: Point, factor: f64) {
+        self.eye = anchor + (self.eye - anchor) * factor;
+        self.distance *= factor;
+    }
+
+    /// Looks along an axis at the same target.
+    pub fn look_along(&mut self, axis: Axis) {
+        let target = self.target();
+        self.turn_to(axis);
+        self.eye = target - self.axes()[2] * self.distance;
+    }
+
+    fn turn_to(&mut self, axis: Axis) {
+        // Seen from above, +y is up on the screen; so is it from below.
+        (self.yaw, self.pitch) = match axis {
+            Axis::PlusX => (0.0, 0.0),
+            Axis::MinusX => (PI, 0.0),
+            Axis::PlusY => (FRAC_PI_2, 0.0),
+            Axis::MinusY => (3.0 * FRAC_PI_2, 0.0),
+            Axis::PlusZ => (FRAC_PI_2, FRAC_PI_2),
+            Axis::MinusZ => (FRAC_PI_2, -FRAC_PI_2),
+            Axis::Iso => (3.0 * FRAC_PI_4, -0.5_f64.atan()),
+        };
+    }
+
+    /// Moves back or forth until `bounds` fill the viewport.
+    pub fn frame(&mut self, bounds: &Aabb, viewport: Viewport) {
+        if bounds.is_empty() {
+            return;
+        }
+        let [right, up, forward] = self.axes();
+        let center = bounds.center();
+        let (tan_x, tan_y) = tangents(viewport);
+        // A corner at depth d + z is inside if |x| <= (d + z) tan_x; the orthographic view is as wide
+        // at all depths.
+        let perspective = f64::from(u8::from(self.projection == Projection::Perspective));
+        let needed = corners(bounds)
+            .map(|c| {
+                let v = c - center;
+                let lateral = (v.dot(right).abs() / tan_x).max(v.dot(up).abs() / tan_y);
+                lateral * FRAME_MARGIN - v.dot(forward) * perspective
+            })
+            .fold(0.0, f64::max);
+        self.distance = if needed > 0.0 { needed } else { 1.0 };
+        self.eye = center - forward * self.distance;
+    }
+
+    /// Size of a pixel at the depth of a point, in world units.
+    pub fn pixel_size(&self, at: Point, viewport: Viewport) -> f64 {
+        let depth = match self.projection {
+            Projection::Perspective => (at - self.eye).dot(self.axes()[2]).max(self.distance * NEAR_SHARE),
+            Projection::Orthographic => self.distance,
+        };
+        2.0 * depth * tangents(viewport).1 / viewport.height
+    }
+
+    /// The ray through a pixel.
+    pub fn ray(&self, pixel: DVec2, viewport: Viewport) -> Ray {
+        let [right, up, forward] = self.axes();
+        let (tan_x, tan_y) = tangents(viewport);
+        let x = (pixel.x / viewport.width * 2.0 - 1.0) * tan_x;
+        let y = (1.0 - pixel.y / viewport.height * 2.0) * tan_y;
+        let lateral = right * x + up * y;
+        match self.projection {
+            Projection::Perspective => Ray { origin: self.eye, direction: (forward + lateral).normalize() },
+            // From far behind the eye: the orthographic view has no near side.
+            Projection::Orthographic => Ray {
+                origin: self.eye + lateral * self.distance - forward * self.distance * 1e3,
+                direction: forward,
+            },
+        }
+    }
+
+    /// Where a point stands on the screen, or `None` if it is behind the eye.
+    pub fn pixel(&self, at: Point, viewport: Viewport) -> Option<DVec2> {
+        let [right, up, forward] = self.axes();
+        let v = at - self.eye;
+        let depth = match self.projection {
+            Projection::Perspective => v.dot(forward),
+            Projection::Orthographic => self.distance,
+        };
+        let (tan_x, tan_y) = tangents(viewport);
+        let x = v.dot(right) / (depth * tan_x);
+        let y = v.dot(up) / (depth * tan_y);
+        (depth > 0.0).then(|| DVec2::new((x + 1.0) * 0.5 * viewport.width, (1.0 - y) * 0.5 * viewport.height))
+    }
+
+    /// The point under a pixel at the depth of `at`.
+    pub fn point_at_depth_of(&self, at: Point, pixel: DVec2, viewport: Viewport) -> Point {
+        let forward = self.axes()[2];
+        let ray = self.ray(pixel, viewport);
+        ray.origin + ray.direction * ((at - ray.origin).dot(forward) / ray.direction.dot(forward))
+    }
+
+    /// The transform from world to clip space (depth 0 to 1) that shows all of `bounds` in front of the
+    /// eye.
+    pub fn clip_from_world(&self, bounds: &Aabb, viewport: Viewport) -> DMat4 {
+        let [right, up, forward] = self.axes();
+        let (near, far) = self.depths(bounds);
+        let (tan_x, tan_y) = tangents(viewport);
+        let view_from_world = DMat4::from_cols(
+            DVec4::new(right.x, up.x, forward.x, 0.0),
+            DVec4::new(right.y, up.y, forward.y, 0.0),
+            DVec4::new(right.z, up.z, forward.z, 0.0),
+            DVec4::new(-right.dot(self.eye), -up.dot(self.eye), -forward.dot(self.eye), 1.0),
+        );
+        let range = far - near;
+        let clip_from_view = match self.projection {
+            Projection::Perspective => DMat4::from_cols(
+                DVec4::new(1.0 / tan_x, 0.0, 0.0, 0.0),
+                DVec4::new(0.0, 1.0 / tan_y, 0.0, 0.0),
+                DVec4::new(0.0, 0.0, far / range, 1.0),
+                DVec4::new(0.0, 0.0, -far * near / range, 0.0),
+            ),
+            Projection::Orthographic => DMat4::from_cols(
+                DVec4::new(1.0 / (tan_x * self.distance), 0.0, 0.0, 0.0),
+                DVec4::new(0.0, 1.0 / (tan_y * self.distance), 0.0, 0.0),
+                DVec4::new(0.0, 0.0, 1.0 / range, 0.0),
+                DVec4::new(0.0, 0.0, -near / range, 1.0),
+            ),
+        };
+        clip_from_view * view_from_world
+    }
+
+    /// Least and greatest depth of `bounds`, with a little room.
+    fn depths(&self, bounds: &Aabb) -> (f64, f64) {
+        let forward = self.axes()[2];
+        let (low, high) = corners(bounds)
+            .map(|c| (c - self.eye).dot(forward))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)));
+        let room = 0.01 * (high - low) + 1e-3 * self.distance;
+        let (low, high) = if low <= high { (low - room, high + room) } else { (-room, room) };
+        match self.projection {
+            Projection::Orthographic => (low, high),
+            Projection::Perspective => {
+                let far = high.max(self.distance);
+                (low.max(far * NEAR_SHARE), far)
+            }
+        }
+    }
+
+    /// The camera on the way from `self` (0) to `other` (1), turning the short way.
+    pub fn between(&self, other: &Self, share: f64) -> Self {
+        let turn = (other.yaw - self.yaw + PI).rem_euclid(TAU) - PI;
+        let mut camera = *other;
+        camera.yaw = self.yaw + turn * share;
+        camera.pitch = self.pitch + (other.pitch - self.pitch) * share;
+        camera.distance = self.distance * (other.distance / self.distance).powf(share);
+        let target = self.target().lerp(other.target(), share);
+        camera.eye = target - camera.axes()[2] * camera.distance;
+        camera
+    }
+}
+
+/// Tangents of half the field of view, across and up.
+fn tangents(viewport: Viewport) -> (f64, f64) {
+    let aspect = viewport.width / viewport.height;
+    let tan = (FIELD_OF_VIEW * 0.5).tan();
+    (tan * aspect, tan)
+}
+
+fn corners(bounds: &Aabb) -> impl Iterator<Item = Point> {
+    let ends = [bounds.min, bounds.max];
+    let count = if bounds.is_empty() { 0 } else { 8 };
+    (0..count).map(move |i: usize| Point::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const VIEW: Viewport = Viewport { width: 800.0, height: 500.0 };
+    const PROJECTIONS: [Projection; 2] = [Projection::Perspective, Projection::Orthographic];
+    const AXES: [Axis; 7] =
+        [Axis::PlusX, Axis::MinusX, Axis::PlusY, Axis::MinusY, Axis::PlusZ, Axis::MinusZ, Axis::Iso];
+
+    fn part() -> Aabb {
+        Aabb { min: Point::new(100.0, -3.0, 2.0), max: Point::new(104.0, 5.0, 3.5) }
+    }
+
+    fn framed(projection: Projection, axis: Axis) -> Camera {
+        let mut camera = Camera { projection, ..Camera::default() };
+        camera.look_along(axis);
+        camera.frame(&part(), VIEW);
+        camera
+    }
+
+    #[track_caller]
+    fn near(a: DVec2, b: DVec2) {
+        assert!(a.distance(b) < 1e-6, "{a} {b}");
+    }
+
+    #[test]
+    fn framing_shows_all_and_fills_the_view() {
+        for projection in PROJECTIONS {
+            for axis in AXES {
+                let camera = framed(projection, axis);
+                let mut reach = DVec2::ZERO;
+                for corner in corners(&part()) {
+                    let at = camera.pixel(corner, VIEW).unwrap();
+                    let clip = camera.clip_from_world(&part(), VIEW).project_point3(corner);
+                    assert!(clip.abs().max_element() <= 1.0 && clip.z >= 0.0, "{axis:?} {clip}");
+                    near(at, DVec2::new((clip.x + 1.0) * 400.0, (1.0 - clip.y) * 250.0));
+                    reach = reach.max(clip.truncate().abs());
+                }
+                assert!(reach.max_element() > 0.6, "{projection:?} {axis:?} {reach}");
+            }
+        }
+    }
+
+    #[test]
+    fn up_is_up_and_right_is_right() {
+        let seen = |axis| framed(Projection::Orthographic, axis).axes();
+        let check = |axis, right: DVec3, up: DVec3| {
+            let [r, u, _] = seen(axis);
+            assert!(r.distance(right) < 1e-12 && u.distance(up) < 1e-12, "{axis:?} {r} {u}");
+        };
+        check(Axis::PlusY, DVec3::X, DVec3::Z);
+        check(Axis::MinusX, DVec3::Y, DVec3::Z);
+        check(Axis::PlusX, DVec3::NEG_Y, DVec3::Z);
+        check(Axis::MinusZ, DVec3::X, DVec3::Y);
+        let [right, up, forward] = seen(Axis::Iso);
+        assert!(
+            up.z > 0.8 && forward.z < 0.0 && forward.y > 0.0 && forward.x < 0.0,
+            "{right} {up} {forward}"
+        );
+    }
+
+    #[test]
+    fn orbit_keeps_the_pivot_on_its_pixel() {
+        for projection in PROJECTIONS {
+            let mut camera = framed(projection, Axis::Iso);
+            let pivot = Point::new(103.0, 4.0, 2.5);
+            let before = camera.pixel(pivot, VIEW).unwrap();
+            let distance = camera.eye.distance(pivot);
+            camera.orbit(pivot, 0.7, -0.2);
+            near(camera.pixel(pivot, VIEW).unwrap(), before);
+            assert!((camera.eye.distance(pivot) - distance).abs() < 1e-9);
+            camera.orbit(pivot, 0.0, 10.0);
+            assert_eq!(camera.pitch, FRAC_PI_2);
+            near(camera.pixel(pivot, VIEW).unwrap(), before);
+        }
+    }
+
+    #[test]
+    fn dolly_keeps_the_anchor_and_pan_moves_it_with_the_pointer() {
+        for projection in PROJECTIONS {
+            let mut camera = framed(projection, Axis::Iso);
+            let pixel = DVec2::new(200.0, 130.0);
+            let anchor = camera.point_at_depth_of(camera.target(), pixel, VIEW);
+            near(camera.pixel(anchor, VIEW).unwrap(), pixel);
+            let size = camera.pixel_size(camera.target(), VIEW);
+            camera.dolly(anchor, 0.25);
+            near(camera.pixel(anchor, VIEW).unwrap(), pixel);
+            assert!((camera.pixel_size(camera.target(), VIEW) / size - 0.25).abs() < 1e-9);
+            camera.pan(anchor, DVec2::new(31.0, -17.0), VIEW);
+            near(camera.pixel(anchor, VIEW).unwrap(), pixel + DVec2::new(31.0, -17.0));
+        }
+    }
+
+    #[test]
+    fn rays_go_through_their_pixels() {
+        for projection in PROJECTIONS {
+            let camera = framed(projection, Axis::Iso);
+            let pixel = DVec2::new(612.0, 77.0);
+            let ray = camera.ray(pixel, VIEW);
+            let along = camera.eye.distance(ray.origin) + camera.distance * 2.0;
+            near(camera.pixel(ray.origin + ray.direction * along, VIEW).unwrap(), pixel);
+        }
+    }
+
+    #[test]
+    fn switching_projection_keeps_the_size_of_the_target() {
+        let mut camera = framed(Projection::Perspective, Axis::Iso);
+        let size = camera.pixel_size(camera.target(), VIEW);
+        camera.projection = Projection::Orthographic;
+        assert!((camera.pixel_size(camera.target(), VIEW) - size).abs() < 1e-12);
+    }
+
+    #[test]
+    fn flights_start_and_end_where_they_should() {
+        let from = framed(Projection::Perspective, Axis::PlusX);
+        let to = framed(Projection::Perspective, Axis::MinusY);
+        assert!(from.between(&to, 0.0).eye.distance(from.eye) < 1e-9);
+        assert!(from.between(&to, 1.0).eye.distance(to.eye) < 1e-9);
+        // The short way from 0 to 270 degrees passes 315.
+        assert!((from.between(&to, 0.5).yaw.rem_euclid(TAU) - 7.0 * FRAC_PI_4).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_eye_inside_the_part_still_sees_something() {
+        let mut camera = framed(Projection::Perspective, Axis::Iso);
+        camera.dolly(part().center(), 1e-3);
+        let (near, far) = camera.depths(&part());
+        assert!(near > 0.0 && near < camera.distance && far > camera.distance, "{near} {far}");
+    }
+}

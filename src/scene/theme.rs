@@ -1,0 +1,68 @@
+//! Colours of everything that is drawn, on light and on dark ground.
+
+/// What stands behind the model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Background {
+    /// Near white.
+    #[default]
+    Light,
+    /// Near black.
+    Dark,
+}
+
+/// Red, green, blue, alpha.
+pub type Rgba = [u8; 4];
+
+/// The colours of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Theme {
+    /// Ground at the top of the canvas.
+    pub ground_top: Rgba,
+    /// Ground at the bottom of the canvas.
+    pub ground_bottom: Rgba,
+    /// Front of a face.
+    pub front: Rgba,
+    /// Back of a face: another hue, so that a turned face is seen at once.
+    pub back: Rgba,
+    /// Edges of faces.
+    pub edge: Rgba,
+    /// Regions.
+    pub region: Rgba,
+    /// The selected region and its handles.
+    pub selected: Rgba,
+    /// Inside of handles.
+    pub handle: Rgba,
+    /// The axes x, y and z.
+    pub axes: [Rgba; 3],
+}
+
+impl Background {
+    /// The colours that go with this background.
+    pub fn theme(self) -> Theme {
+        match self {
+            Self::Light => Theme {
+                ground_top: [250, 251, 252, 255],
+                ground_bottom: [226, 230, 236, 255],
+                front: [206, 212, 220, 255],
+                back: [214, 170, 140, 255],
+                edge: [32, 40, 52, 255],
+                region: [196, 112, 0, 255],
+                selected: [232, 89, 12, 255],
+                handle: [255, 255, 255, 255],
+                axes: [[214, 57, 57, 255], [47, 143, 58, 255], [45, 98, 214, 255]],
+            },
+            Self::Dark => Theme {
+                ground_top: [38, 43, 51, 255],
+                ground_bottom: [20, 23, 28, 255],
+                front: [168, 177, 190, 255],
+                back: [184, 134, 104, 255],
+                edge: [12, 15, 20, 255],
+                region: [255, 179, 71, 255],
+                selected: [255, 146, 43, 255],
+                handle: [24, 27, 33, 255],
+                axes: [[255, 107, 107, 255], [105, 219, 124, 255], [116, 162, 255, 255]],
+            },
+        }
+    }
+}

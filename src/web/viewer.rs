@@ -1,0 +1,238 @@
+//! The viewer's bindings: one class over [`Scene`] and [`Renderer`].
+//!
+//! Positions on the canvas are CSS pixels from its upper left corner.
+
+use glam::DVec2;
+use wasm_bindgen::prelude::*;
+use web_sys::HtmlCanvasElement;
+
+use crate::{
+    render::Renderer,
+    scene::{Axis, Background, Camera, ColourMap, Projection, Scene, Style, Surface, Viewport, colour_index},
+};
+
+/// A scene drawn on a canvas.
+#[wasm_bindgen]
+pub struct Viewer {
+    scene: Scene,
+    renderer: Renderer,
+    flight: Option<[Camera; 2]>,
+    grabbed: Option<glam::DVec3>,
+}
+
+/// A face and a point on it.
+#[wasm_bindgen]
+pub struct PickedFace {
+    /// The face.
+    pub face: u32,
+    /// World coordinates of the point.
+    pub x: f64,
+    /// World coordinates of the point.
+    pub y: f64,
+    /// World coordinates of the point.
+    pub z: f64,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct StyleChange {
+    edges: Option<bool>,
+    edge_width: Option<f32>,
+    background: Option<Background>,
+    projection: Option<Projection>,
+}
+
+fn error(e: impl std::fmt::Display) -> JsError {
+    JsError::new(&e.to_string())
+}
+
+#[wasm_bindgen]
+impl Viewer {
+    /// A viewer on a canvas that can give a WebGL2 context.
+    pub async fn create(canvas: HtmlCanvasElement) -> Result<Viewer, JsError> {
+        console_error_panic_hook::set_once();
+        let renderer = Renderer::on_canvas(canvas).await.map_err(error)?;
+        Ok(Self { scene: Scene::default(), renderer, flight: None, grabbed: None })
+    }
+
+    /// Fits a canvas of `width` by `height` CSS pixels with `ratio` device pixels each.
+    pub fn resize(&mut self, width: f64, height: f64, ratio: f64) {
+        self.scene.viewport = Viewport { width: width.max(1.0), height: height.max(1.0) };
+        self.renderer.resize((width * ratio).round() as u32, (height * ratio).round() as u32);
+    }
+
+    /// Shows a surface: three coordinates a node, and where each face's corners start and the last ends
+    /// (absent: all faces are quads). The camera frames it unless `keep_camera`.
+    #[wasm_bindgen(js_name = setMesh)]
+    pub fn set_mesh(
+        &mut self,
+        nodes: &[f64],
+        offsets: Option<Vec<u32>>,
+        corners: Vec<u32>,
+        keep_camera: bool,
+    ) -> Result<(), JsError> {
+        let surface = Surface::new(nodes, offsets, corners).map_err(error)?;
+        self.renderer.set_surface(Some(&surface)).map_err(error)?;
+        self.scene.set_surface(Some(surface));
+        self.flight = None;
+        if !keep_camera {
+            self.scene.camera = self.scene.framed();
+        }
+        Ok(())
+    }
+
+    /// Shows no surface.
+    #[wasm_bindgen(js_name = clearMesh)]
+    pub fn clear_mesh(&mut self) -> Result<(), JsError> {
+        self.scene.set_surface(None);
+        self.renderer.set_surface(None).map_err(error)
+    }
+
+    /// Gives all faces the same colour.
+    #[wasm_bindgen(js_name = colourPlain)]
+    pub fn colour_plain(&mut self) {
+        self.renderer.set_colours(None);
+    }
+
+    /// Colours each face by its value. There must be one value a face.
+    #[wasm_bindgen(js_name = colourByValue)]
+    pub fn colour_by_value(
+        &mut self,
+        values: &[f32],
+        low: f32,
+        high: f32,
+        map: JsValue,
+    ) -> Result<(), JsError> {
+        let map: ColourMap = serde_wasm_bindgen::from_value(map)?;
+        let faces = self.scene.surface().map_or(0, Surface::face_count);
+        if values.len() != faces {
+            return Err(error(format!("{} values for {faces} faces; give one value a face", values.len())));
+        }
+        let range = [low, high];
+        let indices: Vec<u8> = values.iter().map(|&v| colour_index(v, range, map)).collect();
+        self.renderer.set_colours(Some((&indices, &map.palette(range))));
+        Ok(())
+    }
+
+    /// Changes the parts of the style that are given.
+    #[wasm_bindgen(js_name = setStyle)]
+    pub fn set_style(&mut self, change: JsValue) -> Result<(), JsError> {
+        let change: StyleChange = serde_wasm_bindgen::from_value(change)?;
+        let style = &mut self.scene.style;
+        *style = Style {
+            edges: change.edges.unwrap_or(style.edges),
+            edge_width: change.edge_width.unwrap_or(style.edge_width).clamp(0.0, 20.0),
+            background: change.background.unwrap_or(style.background),
+        };
+        let camera = &mut self.scene.camera;
+        camera.projection = change.projection.unwrap_or(camera.projection);
+        Ok(())
+    }
+
+    /// Draws a frame.
+    pub fn draw(&mut self) -> Result<(), JsError> {
+        self.renderer.draw(&self.scene).map_err(error)
+    }
+
+    /// The first face under a pixel.
+    pub fn pick(&self, x: f64, y: f64) -> Option<PickedFace> {
+        self.scene.pick(DVec2::new(x, y)).map(|hit| PickedFace {
+            face: hit.face as u32,
+            x: hit.point.x,
+            y: hit.point.y,
+            z: hit.point.z,
+        })
+    }
+
+    /// Takes hold of what is under a pixel: `orbit` turns about it, `pan` makes it follow.
+    pub fn grab(&mut self, x: f64, y: f64) {
+        self.flight = None;
+        self.grabbed = Some(self.scene.pivot_under(DVec2::new(x, y)));
+    }
+
+    /// Turns about what was grabbed, by radians.
+    pub fn orbit(&mut self, yaw: f64, pitch: f64) {
+        if let Some(pivot) = self.grabbed {
+            self.scene.camera.orbit(pivot, yaw, pitch);
+        }
+    }
+
+    /// Moves what was grabbed by pixels.
+    pub fn pan(&mut self, x: f64, y: f64) {
+        if let Some(grabbed) = self.grabbed {
+            self.scene.camera.pan(grabbed, DVec2::new(x, y), self.scene.viewport);
+        }
+    }
+
+    /// Scales the distance to what is under a pixel; less than 1: closer.
+    pub fn dolly(&mut self, x: f64, y: f64, factor: f64) {
+        self.flight = None;
+        let anchor = self.scene.point_under(DVec2::new(x, y));
+        self.scene.zoom(anchor, factor);
+    }
+
+    /// Prepares a flight to where everything is seen.
+    #[wasm_bindgen(js_name = flyToAll)]
+    pub fn fly_to_all(&mut self) {
+        self.fly_to(self.scene.framed());
+    }
+
+    /// Prepares a flight to a face. Without such a face nothing happens.
+    #[wasm_bindgen(js_name = flyToFace)]
+    pub fn fly_to_face(&mut self, face: u32) {
+        if let Some(camera) = self.scene.framed_face(face as usize) {
+            self.fly_to(camera);
+        }
+    }
+
+    /// Prepares a flight to where everything is seen along an axis: `+x` to `-z`, or `iso`.
+    #[wasm_bindgen(js_name = flyAlong)]
+    pub fn fly_along(&mut self, axis: JsValue) -> Result<(), JsError> {
+        let axis: Axis = serde_wasm_bindgen::from_value(axis)?;
+        self.fly_to(self.scene.along(axis));
+        Ok(())
+    }
+
+    fn fly_to(&mut self, camera: Camera) {
+        self.flight = Some([self.scene.camera, camera]);
+    }
+
+    /// Goes to a share of the prepared flight, 0 to 1. False: there is none, or it was broken off.
+    pub fn fly(&mut self, share: f64) -> bool {
+        let Some([from, to]) = self.flight else { return false };
+        self.scene.camera = if share >= 1.0 { to } else { from.between(&to, share) };
+        if share >= 1.0 {
+            self.flight = None;
+        }
+        true
+    }
+
+    /// The camera as numbers, for [`Viewer::set_camera`].
+    pub fn camera(&self) -> Vec<f64> {
+        let c = &self.scene.camera;
+        vec![c.eye.x, c.eye.y, c.eye.z, c.yaw, c.pitch, c.distance]
+    }
+
+    /// Takes up a camera again.
+    #[wasm_bindgen(js_name = setCamera)]
+    pub fn set_camera(&mut self, numbers: &[f64]) -> Result<(), JsError> {
+        let &[x, y, z, yaw, pitch, distance] = numbers else {
+            return Err(error("a camera has six numbers"));
+        };
+        self.scene.camera =
+            Camera { eye: glam::DVec3::new(x, y, z), yaw, pitch, distance, ..self.scene.camera };
+        Ok(())
+    }
+
+    /// Bytes of the mesh on the device.
+    #[wasm_bindgen(js_name = meshBytes)]
+    pub fn mesh_bytes(&self) -> usize {
+        self.renderer.mesh_cost().0
+    }
+
+    /// Draw calls for the mesh.
+    #[wasm_bindgen(js_name = drawCalls)]
+    pub fn draw_calls(&self) -> usize {
+        self.renderer.mesh_cost().1
+    }
+}
