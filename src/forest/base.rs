@@ -20,8 +20,8 @@ use rayon::prelude::*;
 use super::QuadForest;
 use super::quadtree::{Level, LevelEdges};
 use crate::geometry::Point;
-use crate::mesh::topology::Edges;
-use crate::mesh::{EdgeId, FaceId, NodeId, PolygonMesh};
+use crate::mesh::topology::two_colouring;
+use crate::mesh::{EdgeId, Edges, FaceId, NodeId, PolygonMesh};
 
 /// Why a polygon mesh cannot be the base of a forest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -89,13 +89,14 @@ impl QuadForest {
     pub fn coarse(input: &PolygonMesh) -> Result<Self, BaseError> {
         let mut elements = as_quads(input)?;
         let edges = Edges::of_polygons(input);
-        let colouring = Colouring::of(input.positions.len(), &edges.ends)?;
+        let is_edge_node = two_colouring(input.positions.len(), &edges)
+            .map_err(|e| BaseError::OddCycle(edges.ends[e.index()]))?;
         let (positions, node_of) = used_nodes(input);
         let new = |n: NodeId| node_of[n.index()];
         let mut of_element: Vec<[EdgeId; 4]> =
             edges.of_corner.chunks_exact(4).map(|e| [e[0], e[1], e[2], e[3]]).collect();
         for (element, sides) in elements.iter_mut().zip(&mut of_element) {
-            if colouring.is_second(element[0]) {
+            if is_edge_node[element[0].index()] {
                 element.rotate_left(1);
                 sides.rotate_left(1);
             }
@@ -103,7 +104,7 @@ impl QuadForest {
         }
         let edge_node_first = |ends: &[NodeId; 2]| {
             let [a, b] = *ends;
-            if colouring.is_second(a) { [new(a), new(b)] } else { [new(b), new(a)] }
+            if is_edge_node[a.index()] { [new(a), new(b)] } else { [new(b), new(a)] }
         };
         let ends = edges.ends.iter().map(edge_node_first).collect();
         let roots = (0..elements.len()).map(FaceId::new).collect();
@@ -165,71 +166,4 @@ fn mean(input: &PolygonMesh, f: usize) -> Point {
         return ((at(a) + at(c)) + (at(b) + at(d))) * 0.25;
     }
     nodes.iter().map(|&n| at(n)).sum::<Point>() / nodes.len() as f64
-}
-
-/// A colouring of nodes with two colours such that every edge joins both.
-struct Colouring(Vec<Option<bool>>);
-
-impl Colouring {
-    /// Colours the nodes of a graph. In every connected part the node of the least number has the first colour.
-    fn of(node_count: usize, edges: &[[NodeId; 2]]) -> Result<Self, BaseError> {
-        let neighbours = Neighbours::of(node_count, edges);
-        let mut colour = vec![None; node_count];
-        let mut queue = Vec::new();
-        for start in 0..node_count {
-            if colour[start].is_some() {
-                continue;
-            }
-            colour[start] = Some(false);
-            queue.push(NodeId::new(start));
-            while let Some(node) = queue.pop() {
-                for &other in neighbours.of_node(node) {
-                    if colour[other.index()] == colour[node.index()] {
-                        return Err(BaseError::OddCycle([node.min(other), node.max(other)]));
-                    }
-                    if colour[other.index()].is_none() {
-                        colour[other.index()] = colour[node.index()].map(|c: bool| !c);
-                        queue.push(other);
-                    }
-                }
-            }
-        }
-        Ok(Self(colour))
-    }
-
-    /// True if `node` has the second colour, the edge nodes'.
-    fn is_second(&self, node: NodeId) -> bool {
-        self.0[node.index()] == Some(true)
-    }
-}
-
-/// The neighbours of each node along edges, row by row.
-struct Neighbours {
-    offsets: Vec<u32>,
-    nodes: Vec<NodeId>,
-}
-
-impl Neighbours {
-    fn of(node_count: usize, edges: &[[NodeId; 2]]) -> Self {
-        let mut offsets = vec![0; node_count + 1];
-        for end in edges.as_flattened() {
-            offsets[end.index() + 1] += 1;
-        }
-        for n in 0..node_count {
-            offsets[n + 1] += offsets[n];
-        }
-        let mut next = offsets.clone();
-        let mut nodes = vec![NodeId::default(); 2 * edges.len()];
-        for &[a, b] in edges {
-            for (from, to) in [(a, b), (b, a)] {
-                nodes[next[from.index()] as usize] = to;
-                next[from.index()] += 1;
-            }
-        }
-        Self { offsets, nodes }
-    }
-
-    fn of_node(&self, node: NodeId) -> &[NodeId] {
-        &self.nodes[self.offsets[node.index()] as usize..self.offsets[node.index() + 1] as usize]
-    }
 }

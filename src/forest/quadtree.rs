@@ -59,7 +59,7 @@ impl Level {
             is_refined: vec![false; elements.len()],
             elements,
             roots,
-            siblings: 1,
+            siblings: 0,
             edges,
             refined: Vec::new(),
         }

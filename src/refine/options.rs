@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Cancelled;
 use crate::forest::BaseError;
+use crate::mesh::check::{check_faces, summary};
 use crate::mesh::{FaceId, PolygonMesh, QuadMesh, Tags};
 use crate::sizing::{Region, SizingError};
 
@@ -75,7 +76,7 @@ pub enum RefineError {
     /// The input has no faces.
     #[error("the surface has no faces; give one with at least one polygon")]
     NoFaces,
-    /// The input is no valid polygon mesh; the first defects in words.
+    /// The input is no polygon mesh; each kind of defect in words.
     #[error("the surface cannot be refined: {}", .0.join("; "))]
     InvalidInput(Vec<String>),
     /// The coarse quads cannot be kept.
@@ -129,6 +130,10 @@ impl RefineError {
 pub(super) fn validate(input: &PolygonMesh, options: &QuadOptions) -> Result<(), RefineError> {
     if input.face_count() == 0 {
         return Err(RefineError::NoFaces);
+    }
+    let defects = check_faces(input);
+    if !defects.is_empty() {
+        return Err(RefineError::InvalidInput(summary(&defects).iter().map(ToString::to_string).collect()));
     }
     let out_of_range = |option, value: String, wanted| Err(RefineError::Option { option, value, wanted });
     if options.max_levels > QuadOptions::DEEPEST_LEVEL {

@@ -39,15 +39,33 @@ pub fn check_polygons(mesh: &PolygonMesh) -> Vec<Defect> {
     }
 }
 
+/// What keeps a polygon mesh from being one at all: broken offsets, faces of fewer than three nodes, ids out of
+/// range, coordinates that are not finite, nodes repeated in a face. In time linear in the mesh.
+pub fn check_faces(mesh: &PolygonMesh) -> Vec<Defect> {
+    if let Some(face) = broken_offsets(mesh) {
+        return vec![Defect::BrokenOffsets { face }];
+    }
+    let mut defects = per_face(mesh, |f| face_ids(mesh, f));
+    if defects.is_empty() {
+        defects.extend(not_finite(mesh.positions()));
+        defects.extend(per_face(mesh, |f| {
+            repeated_node(mesh.face(f)).map(|node| Defect::RepeatedNode { face: FaceId::new(f), node })
+        }));
+    }
+    defects
+}
+
+fn not_finite(positions: &[Point]) -> Vec<Defect> {
+    let nodes = positions.par_iter().enumerate().with_min_len(CHUNK);
+    nodes.filter(|(_, p)| !p.is_finite()).map(|(n, _)| Defect::NotFinite { node: NodeId::new(n) }).collect()
+}
+
 fn check(mesh: &impl Faces) -> Vec<Defect> {
     let mut defects = per_face(mesh, |f| face_ids(mesh, f));
     if !defects.is_empty() {
         return defects;
     }
-    let finite = mesh.positions().par_iter().enumerate().with_min_len(CHUNK);
-    defects.par_extend(
-        finite.filter(|(_, p)| !p.is_finite()).map(|(n, _)| Defect::NotFinite { node: NodeId::new(n) }),
-    );
+    defects.extend(not_finite(mesh.positions()));
     let all_finite = defects.is_empty();
     defects.extend(per_face(mesh, |f| face_shape(mesh, f)));
     defects.extend(same_nodes::same_nodes(mesh));

@@ -4,6 +4,7 @@ mod estimate;
 mod exhaustive;
 mod judge;
 mod random;
+mod results;
 mod worlds;
 
 use hexmill::Silent;
