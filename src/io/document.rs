@@ -1,6 +1,7 @@
 //! What a file holds, whatever its format.
 
 use crate::mesh::{FaceId, HexMesh, PolygonMesh, QuadMesh, Tags};
+use crate::refine::RefinedQuads;
 
 /// The cells of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,7 +14,29 @@ pub enum AnyMesh {
     Hexes(HexMesh),
 }
 
+impl AnyMesh {
+    /// Number of nodes.
+    pub fn node_count(&self) -> usize {
+        match self {
+            Self::Polygons(mesh) => mesh.positions.len(),
+            Self::Quads(mesh) => mesh.positions.len(),
+            Self::Hexes(mesh) => mesh.positions.len(),
+        }
+    }
+
+    /// Number of cells: faces or hexes.
+    pub fn cell_count(&self) -> usize {
+        match self {
+            Self::Polygons(mesh) => mesh.face_count(),
+            Self::Quads(mesh) => mesh.quads.len(),
+            Self::Hexes(mesh) => mesh.hexes.len(),
+        }
+    }
+}
+
 /// A mesh with what is known of its cells. The vectors have an entry a cell, or none at all.
+///
+/// The names of the cells stand in [`Document::tags`] alone: the `tags` of the mesh within are empty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     /// Nodes and cells.
@@ -24,4 +47,61 @@ pub struct Document {
     pub level: Vec<u8>,
     /// The cell of the input that each cell is part of.
     pub parent: Vec<FaceId>,
+}
+
+impl Document {
+    /// A document of `mesh` alone; the mesh's own tags become the document's.
+    pub fn new(mut mesh: AnyMesh) -> Self {
+        let tags = match &mut mesh {
+            AnyMesh::Polygons(mesh) => std::mem::take(&mut mesh.tags),
+            AnyMesh::Hexes(mesh) => std::mem::take(&mut mesh.tags),
+            AnyMesh::Quads(_) => Tags::default(),
+        };
+        Self { mesh, tags, level: Vec::new(), parent: Vec::new() }
+    }
+
+    /// The faces of the document as a surface with its tags, or `None` if it holds hexes.
+    pub fn into_surface(self) -> Option<PolygonMesh> {
+        let mut surface = match self.mesh {
+            AnyMesh::Polygons(mesh) => mesh,
+            AnyMesh::Quads(mesh) => PolygonMesh {
+                positions: mesh.positions,
+                offsets: (0..=mesh.quads.len()).map(|q| 4 * q as u32).collect(),
+                corners: mesh.quads.into_flattened(),
+                ..PolygonMesh::default()
+            },
+            AnyMesh::Hexes(_) => return None,
+        };
+        surface.tags = self.tags;
+        Some(surface)
+    }
+}
+
+impl From<PolygonMesh> for Document {
+    fn from(mesh: PolygonMesh) -> Self {
+        Self::new(AnyMesh::Polygons(mesh))
+    }
+}
+
+impl From<QuadMesh> for Document {
+    fn from(mesh: QuadMesh) -> Self {
+        Self::new(AnyMesh::Quads(mesh))
+    }
+}
+
+impl From<HexMesh> for Document {
+    fn from(mesh: HexMesh) -> Self {
+        Self::new(AnyMesh::Hexes(mesh))
+    }
+}
+
+impl From<RefinedQuads> for Document {
+    fn from(refined: RefinedQuads) -> Self {
+        Self {
+            mesh: AnyMesh::Quads(refined.mesh),
+            tags: refined.tags,
+            level: refined.level,
+            parent: refined.parent,
+        }
+    }
 }

@@ -16,6 +16,13 @@ pub struct ReadError {
     pub message: String,
 }
 
+impl ReadError {
+    /// A stable name of what is wrong, such as `obj-index-out-of-range`.
+    pub fn code(&self) -> &'static str {
+        self.code
+    }
+}
+
 /// Why a mesh could not be written.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{format}: {message}")]
@@ -26,4 +33,11 @@ pub struct WriteError {
     pub code: &'static str,
     /// What is wrong and what to do.
     pub message: String,
+}
+
+impl WriteError {
+    /// A stable name of what is wrong, such as `format-holds-no-hexes`.
+    pub fn code(&self) -> &'static str {
+        self.code
+    }
 }

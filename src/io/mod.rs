@@ -1,4 +1,8 @@
 //! Bytes in, bytes out. No paths, no printing.
+//!
+//! Every format is a module with a `read`, a `write` or both; [`read`] and [`write`] choose among them.
+//! A reader refuses only what a [`Document`] cannot represent; what is doubtful in a mesh (repeated
+//! nodes, faces of no area, nodes that no face uses) is for [`crate::mesh`]'s checks to report.
 
 pub mod glb;
 pub mod inp;
@@ -11,7 +15,33 @@ pub mod vtu;
 mod document;
 mod error;
 mod format;
+mod sniff;
 
 pub use document::{AnyMesh, Document};
 pub use error::{ReadError, WriteError};
 pub use format::Format;
+
+/// Reads a mesh from the bytes of a file.
+pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
+    match format {
+        Format::Obj => obj::read(bytes),
+        _ => Err(ReadError {
+            format,
+            line: None,
+            code: "format-not-read",
+            message: format!("{format} files are not read: convert the mesh to OBJ first"),
+        }),
+    }
+}
+
+/// Writes a mesh as the bytes of a file.
+pub fn write(document: &Document, format: Format) -> Result<Vec<u8>, WriteError> {
+    match format {
+        Format::Obj => obj::write(document),
+        _ => Err(WriteError {
+            format,
+            code: "format-not-written",
+            message: format!("{format} files are not written: write OBJ"),
+        }),
+    }
+}

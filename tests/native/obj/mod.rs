@@ -1,1 +1,3 @@
-//! obj
+//! The OBJ reader and writer.
+
+mod good;

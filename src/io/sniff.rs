@@ -1,0 +1,67 @@
+//! What a file is when it is not what it was taken for, told by its first bytes.
+
+/// Bytes that a kind of file starts with, and what to call it.
+const STARTS: &[(&[u8], &str)] = &[
+    (b"\x89PNG", "a PNG image"),
+    (b"\xFF\xD8\xFF", "a JPEG image"),
+    (b"GIF8", "a GIF image"),
+    (b"\x1F\x8B", "a gzip archive"),
+    (b"PK\x03\x04", "a zip archive (3MF, USDZ and office files are zip archives too)"),
+    (b"7z\xBC\xAF\x27\x1C", "a 7z archive"),
+    (b"BZh", "a bzip2 archive"),
+    (b"\xFD7zXZ", "an xz archive"),
+    (b"\x28\xB5\x2F\xFD", "a zstd archive"),
+    (b"%PDF", "a PDF document"),
+    (b"\x7FELF", "a program"),
+    (b"\0asm", "a WebAssembly module"),
+    (b"glTF", "a binary glTF file"),
+    (b"Kaydara FBX", "an FBX file"),
+    (b"BLENDER", "a Blender file"),
+    (b"\x89HDF", "an HDF5 file"),
+    (b"CDF", "a NetCDF file"),
+    (b"ply\n", "a PLY file"),
+    (b"ply\r", "a PLY file"),
+    (b"solid ", "an STL file"),
+    (b"OFF\n", "an OFF file"),
+    (b"OFF\r", "an OFF file"),
+    (b"# vtk DataFile", "a legacy VTK file"),
+    (b"$MeshFormat", "a Gmsh file"),
+    (b"MeshVersionFormatted", "a MEDIT file"),
+    (b"*HEADING", "an Abaqus input deck"),
+    (b"*Heading", "an Abaqus input deck"),
+    (b"ISO-10303-21", "a STEP file"),
+    (b"<!DOCTYPE", "an HTML page"),
+    (b"<!doctype", "an HTML page"),
+    (b"<html", "an HTML page"),
+    (b"<VTKFile", "a VTK XML file"),
+    (b"<?xml", "an XML file"),
+    (b"{", "a JSON file"),
+    (b"[", "a JSON file"),
+    (b"<", "an XML or HTML file"),
+];
+
+/// Names what `bytes` are if they are well known to be no OBJ.
+pub(super) fn not_obj(bytes: &[u8]) -> Option<&'static str> {
+    let text = &bytes[bytes.iter().take(64).take_while(|b| b.is_ascii_whitespace()).count()..];
+    let known = STARTS.iter().find(|(start, _)| text.starts_with(start)).map(|&(_, name)| name);
+    known.or_else(|| is_binary_stl(bytes).then_some("a binary STL file"))
+}
+
+/// Names the encoding if `bytes` are text in UTF-16 or UTF-32, with a byte order mark or without.
+pub(super) fn wide_text(bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        [0xFF, 0xFE, 0, 0, ..] | [0, 0, 0xFE, 0xFF, ..] => Some("UTF-32"),
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => Some("UTF-16"),
+        [a, 0, b, 0, ..] | [0, a, 0, b, ..] if a.is_ascii() && b.is_ascii() && *a != 0 && *b != 0 => {
+            Some("UTF-16")
+        }
+        _ => None,
+    }
+}
+
+/// A binary STL file is 80 free bytes, a count, and 50 bytes a triangle.
+fn is_binary_stl(bytes: &[u8]) -> bool {
+    let Some(count) = bytes.get(80..84) else { return false };
+    let count = u32::from_le_bytes([count[0], count[1], count[2], count[3]]);
+    count > 0 && bytes.len() as u64 == 84 + 50 * u64::from(count)
+}

@@ -1,0 +1,180 @@
+// The queue in front of the workers: one task at a time, cancelled at once, on fresh workers where they died.
+
+import { CancelledError, HexmillError } from './errors.js';
+import type { CallOptions, Progress } from './options.js';
+import type { CallName, Calls, SurfaceSource } from './protocol.js';
+import { Team } from './team.js';
+import type { TeamSettings } from './team.js';
+
+/** A cancelled call may take this long to stop by itself before its workers are discarded, in milliseconds. */
+const GRACE = 100;
+
+/** A surface as the calling thread keeps it. */
+export interface SurfaceRecord {
+  readonly id: number;
+  readonly source: SurfaceSource;
+}
+
+/** What a task does its work with. */
+export interface Desk {
+  call<N extends CallName>(name: N, takes: Calls[N]['takes']): Promise<Calls[N]['gives']>;
+  /** The number of a surface, which is loaded anew if the workers were replaced. */
+  surface(record: SurfaceRecord): Promise<number>;
+  /** Loads a surface that the workers have not seen. */
+  load(record: SurfaceRecord): Promise<Calls['load']['gives']>;
+}
+
+interface Job {
+  /** Does the work; never rejects. */
+  run(): Promise<void>;
+  /** Rejects the caller, wherever the work stands. */
+  fail(error: HexmillError): void;
+}
+
+/** Runs tasks on a team of workers. */
+export class Engine {
+  readonly #settings: TeamSettings;
+  readonly #waiting: Job[] = [];
+  #team: Team;
+  #active: Job | null = null;
+  #end: HexmillError | null = null;
+
+  constructor(settings: TeamSettings) {
+    this.#settings = { ...settings };
+    this.#team = this.#newTeam();
+  }
+
+  /** Waits until the first workers can work. */
+  async start(): Promise<void> {
+    await this.#team.ready;
+    this.#rest();
+  }
+
+  /** Runs `task` when all tasks before it are done. */
+  run<T>(task: (desk: Desk) => Promise<T>, { signal, onProgress }: CallOptions = {}): Promise<T> {
+    if (this.#end) return Promise.reject(this.#end);
+    if (signal?.aborted) return Promise.reject(new CancelledError());
+    return new Promise<T>((resolve, reject) => {
+      const stop = new AbortController();
+      const abort = () => job.fail(new CancelledError());
+      const untilStopped = (progress: Progress) => {
+        if (!stop.signal.aborted) onProgress?.(progress);
+      };
+      const settle = () => signal?.removeEventListener('abort', abort);
+      const job: Job = {
+        run: async () => {
+          try {
+            resolve(await task(this.#desk(stop.signal, untilStopped)));
+          } catch (error) {
+            reject(error);
+          } finally {
+            settle();
+          }
+        },
+        fail: (error) => {
+          settle();
+          reject(error);
+          stop.abort(error);
+          this.#withdraw(job);
+        },
+      };
+      signal?.addEventListener('abort', abort);
+      this.#waiting.push(job);
+      void this.#next();
+    });
+  }
+
+  /** Frees a surface. */
+  drop(surface: number): void {
+    this.#team.drop(surface);
+  }
+
+  /** Ends the workers; everything pending fails with `error`, and everything that comes. */
+  terminate(error: HexmillError): void {
+    if (this.#end) return;
+    this.#end = error;
+    this.#team.dismiss(error);
+    for (const job of [...(this.#active ? [this.#active] : []), ...this.#waiting.splice(0)]) job.fail(error);
+  }
+
+  #newTeam(): Team {
+    const team = new Team(this.#settings);
+    // Whoever awaits the team hears of it; nobody may be awaiting it.
+    team.ready.catch(() => {});
+    return team;
+  }
+
+  /** Runs the next task, if none is running. */
+  async #next(): Promise<void> {
+    const job = this.#active ? undefined : this.#waiting.shift();
+    if (!job) return;
+    this.#active = job;
+    this.#team.setBusy(true);
+    await job.run();
+    this.#release(job);
+  }
+
+  #release(job: Job): void {
+    if (this.#active !== job) return;
+    this.#active = null;
+    this.#rest();
+    void this.#next();
+  }
+
+  #rest(): void {
+    if (!this.#active && this.#waiting.length === 0) this.#team.setBusy(false);
+  }
+
+  /** Takes back a task whose caller has been told that it failed. */
+  #withdraw(job: Job): void {
+    const place = this.#waiting.indexOf(job);
+    if (place >= 0) this.#waiting.splice(place, 1);
+    if (this.#active === job) void this.#stopWork(job);
+  }
+
+  /** Lets the call under way stop by itself for a moment, then replaces the workers. */
+  async #stopWork(job: Job): Promise<void> {
+    const team = this.#team;
+    team.interrupt();
+    if (team.busy && !(await team.idleWithin(GRACE))) this.#replace(new CancelledError());
+    this.#release(job);
+  }
+
+  #replace(error: HexmillError): void {
+    this.#team.dismiss(error);
+    if (this.#end) return;
+    this.#settings.module = this.#team.module ?? this.#settings.module;
+    this.#team = this.#newTeam();
+  }
+
+  /** The workers, fresh ones if the last have died. */
+  async #readyTeam(): Promise<Team> {
+    if (!this.#team.alive) this.#replace(new CancelledError());
+    const team = this.#team;
+    team.setBusy(true);
+    await team.ready;
+    return team;
+  }
+
+  #desk(stop: AbortSignal, onProgress: (progress: Progress) => void): Desk {
+    const desk: Desk = {
+      call: async (name, takes) => {
+        const team = await this.#readyTeam();
+        stop.throwIfAborted();
+        const call = { name, ...takes } as Parameters<Team['call']>[0];
+        return team.call(call, onProgress) as Promise<never>;
+      },
+      load: async (record) => {
+        const loaded = await desk.call('load', { surface: record.id, source: record.source });
+        this.#team.surfaces.add(record.id);
+        return loaded;
+      },
+      surface: async (record) => {
+        const team = await this.#readyTeam();
+        if (!team.surfaces.has(record.id)) await desk.load(record);
+        return record.id;
+      },
+    };
+    return desk;
+  }
+}

@@ -1,0 +1,45 @@
+import { startMesher } from './mesher.js';
+import type { Mesher, MesherOptions } from './mesher.js';
+import type { Platform } from './platform.js';
+
+export * from './exports.js';
+
+/** The pool takes no more threads than this by default: the work does not gain by more. */
+const MOST_THREADS = 16;
+
+// Bundlers find the worker and the modules by these very expressions.
+const browser: Platform = {
+  cores: () => Math.min(navigator.hardwareConcurrency || 1, MOST_THREADS),
+  sharesMemory: () => globalThis.crossOriginIsolated === true && typeof SharedArrayBuffer === 'function',
+  wasmUrl: (file) =>
+    file === 'mesher.wasm'
+      ? new URL('../wasm/mesher/mesher.wasm', import.meta.url)
+      : new URL('../wasm/mesher-threads/mesher-threads.wasm', import.meta.url),
+  resolve: (url) => new URL(url, globalThis.document?.baseURI ?? location.href).href,
+  spawn: (url, events) => {
+    const worker =
+      url === undefined
+        ? new Worker(new URL('./worker.js', import.meta.url), { type: 'module', name: 'hexmill' })
+        : new Worker(url, { type: 'module', name: 'hexmill' });
+    worker.addEventListener('message', (event: MessageEvent) => events.onMessage(event.data));
+    worker.addEventListener('messageerror', () => events.onError('it sent something unreadable'));
+    worker.addEventListener('error', (event) => {
+      event.preventDefault();
+      events.onError(event.message || 'its script could not be loaded: see the option workerUrl');
+    });
+    return {
+      post: (message) => worker.postMessage(message),
+      terminate: () => worker.terminate(),
+      setBusy: () => {},
+    };
+  },
+};
+
+/**
+ * Starts a mesher in web workers: on a pool of them where the page is cross-origin isolated, else on one.
+ *
+ * @throws {@link InternalError} if the worker or its module cannot be loaded.
+ */
+export function createMesher(options: MesherOptions = {}): Promise<Mesher> {
+  return startMesher(browser, options);
+}

@@ -1,0 +1,128 @@
+/** A point or a direction: x, y, z in model units. */
+export type Vector = readonly [number, number, number];
+
+/** Where to refine. All lengths are in model units. */
+export type Shape =
+  /** A box from corner to corner, turned about its centre by a unit quaternion x, y, z, w. */
+  | { kind: 'box'; min: Vector; max: Vector; rotation?: readonly [number, number, number, number] }
+  | { kind: 'sphere'; center: Vector; radius: number }
+  /** A capped cylinder between the centres of its caps. */
+  | { kind: 'cylinder'; from: Vector; to: Vector; radius: number }
+  /** Everything within `radius` of one of the points. */
+  | { kind: 'points'; points: readonly Vector[]; radius: number }
+  /** Everything within `distance` of a triangle surface. */
+  | {
+      kind: 'surface';
+      positions: readonly Vector[];
+      triangles: readonly (readonly [number, number, number])[];
+      distance: number;
+    };
+
+/** How far to refine: to edges no longer than `size`, or `level` times, counted from the input. */
+export type Target = { size: number; level?: never } | { level: number; size?: never };
+
+/** A shape in space and what is wanted of the elements that overlap it. */
+export type Region = Shape & Target;
+
+/** What the quad mesh is to be like. Without any of the first four the input is only made all-quad. */
+export interface QuadOptions {
+  /** No edge longer than this, anywhere. */
+  edgeLength?: number | undefined;
+  /** Refine everything at least this many times. */
+  levels?: number | undefined;
+  /** Where to refine further. */
+  regions?: readonly Region[] | undefined;
+  /** Turn of the surface's normal that one edge may span, in degrees. */
+  curvature?: number | undefined;
+  /** How much larger an element may be than its neighbour, more than 1 and at most 2 (the default). */
+  gradation?: number | undefined;
+  /** Leave untouched quads as they are; for all-quad input whose nodes can be two-coloured. */
+  keepCoarse?: boolean | undefined;
+  /** No element is refined beyond this level. Default 12. */
+  maxLevels?: number | undefined;
+  /** Refuse a mesh of more quads than this. Default 64 million. */
+  maxQuads?: number | undefined;
+}
+
+/** How far the work is. */
+export interface Progress {
+  /** What is being done, such as `refine` or `balance`. */
+  stage: string;
+  /** How much of the stage is done, from 0 to 1; it never falls within a stage. */
+  fraction: number;
+}
+
+/** Options of every long call. */
+export interface CallOptions {
+  /** Aborting rejects the call at once with a `CancelledError` and frees the processor within 200 ms. */
+  signal?: AbortSignal | undefined;
+  /** Called on this thread about 25 times a second. */
+  onProgress?: ((progress: Progress) => void) | undefined;
+}
+
+/**
+ * Tells how fine each element is to be.
+ *
+ * Called once a level, on the caller's thread, with x, y, z of the centre of each element that may be refined and
+ * its longest edge. Returns the longest edge allowed for each; `Infinity` where it does not matter. It must not
+ * wait for another call of the same mesher, which would be waiting for this one.
+ */
+export type SizeFunction = (
+  centers: Float64Array,
+  longest: Float64Array,
+) => Float64Array | Promise<Float64Array>;
+
+/** Options of `refineQuads`. */
+export interface RefineOptions extends QuadOptions, CallOptions {
+  /** A size for each element beside what the other options ask for. */
+  sizeFunction?: SizeFunction | undefined;
+}
+
+/** Formats that are read. */
+export type InputFormat = 'obj' | 'vtu' | 'vtk' | 'msh' | 'inp' | 'medit';
+
+/** Formats that are written. */
+export type OutputFormat = InputFormat | 'glb';
+
+/** Says what the bytes are. */
+export interface InputOptions {
+  /** The format; by default that of the extension of `name`, else `obj`. */
+  format?: InputFormat | undefined;
+  /** The file's name, for its extension. */
+  name?: string | undefined;
+}
+
+/** A surface as arrays. */
+export interface SurfaceArrays {
+  /** x, y, z of each node. */
+  nodes: Float64Array;
+  /** Where each face's corners start in `corners`, and the end of the last. Without it all faces are quads. */
+  offsets?: Uint32Array | undefined;
+  /** The nodes of all faces, face after face, counted from 0. */
+  corners: Uint32Array;
+}
+
+/** What a surface can be loaded from: a file's text or bytes, or arrays. */
+export type SurfaceInput = string | Uint8Array | ArrayBuffer | Blob | SurfaceArrays;
+
+const EXTENSIONS: Readonly<Record<string, InputFormat>> = {
+  obj: 'obj',
+  vtu: 'vtu',
+  vtk: 'vtk',
+  msh: 'msh',
+  inp: 'inp',
+  mesh: 'medit',
+  medit: 'medit',
+};
+
+/** The format that `options` name, by themselves or by a file's extension; `obj` if they name none. */
+export function inputFormat({ format, name }: InputOptions): InputFormat {
+  if (format !== undefined) return format;
+  const extension = name?.split('.').pop()?.toLowerCase() ?? '';
+  return EXTENSIONS[extension] ?? 'obj';
+}
+
+/** `options` as the mesher takes them: plain data, without entries that are undefined. */
+export function plainOptions(options: QuadOptions): QuadOptions {
+  return Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined));
+}

@@ -1,0 +1,139 @@
+// A worker's side of the protocol, for browsers and for Node: see worker.ts and node-worker.ts.
+
+import initThreads, * as threaded from '../wasm/mesher-threads/mesher-threads.js';
+import initSingle, * as single from '../wasm/mesher/mesher.js';
+import { failureOf } from './errors.js';
+import type { Failure } from './errors.js';
+import { Meshing } from './meshing.js';
+import type { Bindings } from './meshing.js';
+import type { Call, FromWorker, SharedControl, ToWorker } from './protocol.js';
+
+/** What a worker needs of the platform that it runs on. */
+export interface Host {
+  post(message: FromWorker, transfer: ArrayBufferLike[]): void;
+  /** Loads and compiles the module at an address. */
+  compile(url: string): Promise<WebAssembly.Module>;
+}
+
+/** Progress is told at most this often, in milliseconds. */
+const PROGRESS_INTERVAL = 40;
+
+/** What the module calls by name: see src/web/listener.rs. */
+interface Listeners {
+  panicked(message: string): void;
+  progressed(stage: string, fraction: number): void;
+}
+
+/** Makes the function that takes the messages to this worker, one after the other. */
+export function serve(host: Host): (message: ToWorker) => Promise<void> {
+  const worker = new ServedWorker(host);
+  return async (message) => {
+    try {
+      await worker.take(message);
+    } catch (thrown) {
+      host.post({ type: 'crashed', failure: worker.crashOf(thrown) }, []);
+    }
+  };
+}
+
+class ServedWorker {
+  readonly #host: Host;
+  #meshing: Meshing | null = null;
+  #panic: string | null = null;
+  #call = 0;
+  #told = { stage: '', time: 0 };
+
+  constructor(host: Host) {
+    this.#host = host;
+    const listeners: Listeners = {
+      panicked: (message) => (this.#panic = message),
+      progressed: (stage, fraction) => this.#progressed(stage, fraction),
+    };
+    Object.assign(globalThis, { hexmillWorker: listeners });
+  }
+
+  async take(message: ToWorker): Promise<void> {
+    switch (message.type) {
+      case 'start':
+        return this.#start(message.module, message.threads);
+      case 'join':
+        return this.#join(message.module, message.memory);
+      case 'call':
+        return this.#answer(message.id, message.call);
+      case 'drop':
+        return this.#meshing?.drop(message.surface);
+    }
+  }
+
+  /** The failure of a worker that is of no more use. */
+  crashOf(thrown: unknown): Failure {
+    if (this.#panic !== null) {
+      return { kind: 'internal', code: 'panicked', message: `The mesher failed: ${this.#panic}` };
+    }
+    if (thrown instanceof WebAssembly.RuntimeError || thrown instanceof RangeError) {
+      const message = `The mesher failed (${thrown.message}), most likely for want of memory: ask for fewer quads.`;
+      return { kind: 'internal', code: 'out-of-memory', message };
+    }
+    return failureOf(thrown);
+  }
+
+  async #start(source: string | WebAssembly.Module, threads: number): Promise<void> {
+    const module = typeof source === 'string' ? await this.#compile(source) : source;
+    const shared = threads > 1 ? await this.#startShared(module, threads) : await this.#startSingle(module);
+    this.#host.post({ type: 'started', module, shared }, []);
+  }
+
+  async #compile(url: string): Promise<WebAssembly.Module> {
+    try {
+      return await this.#host.compile(url);
+    } catch (thrown) {
+      const why = failureOf(thrown).message;
+      const message = `The mesher could not be loaded from ${url} (${why}): see the option wasmUrl.`;
+      throw { kind: 'internal', code: 'module-not-loaded', message } satisfies Failure;
+    }
+  }
+
+  async #startSingle(module: WebAssembly.Module): Promise<null> {
+    await initSingle({ module_or_path: module });
+    single.reportPanics();
+    this.#meshing = new Meshing(single);
+    return null;
+  }
+
+  async #startShared(module: WebAssembly.Module, threads: number): Promise<SharedControl> {
+    const { memory } = await initThreads({ module_or_path: module });
+    threaded.reportPanics();
+    threaded.preparePool(threads);
+    // The classes differ in name only: both are made from the same Rust.
+    this.#meshing = new Meshing(threaded as unknown as Bindings);
+    return { memory, address: threaded.controlAddress() };
+  }
+
+  /** Becomes a thread of the pool: never returns, unless the thread dies. */
+  async #join(module: WebAssembly.Module, memory: WebAssembly.Memory): Promise<void> {
+    await initThreads({ module_or_path: module, memory });
+    threaded.reportPanics();
+    this.#host.post({ type: 'joined' }, []);
+    threaded.runPoolThread();
+  }
+
+  #answer(id: number, call: Call): void {
+    if (!this.#meshing) throw new Error('the mesher has not been started');
+    this.#call = id;
+    this.#told = { stage: '', time: 0 };
+    try {
+      const { result, transfer } = this.#meshing.answer(call);
+      this.#host.post({ type: 'done', id, result }, transfer);
+    } catch (thrown) {
+      if (thrown instanceof Error) throw thrown;
+      this.#host.post({ type: 'failed', id, failure: failureOf(thrown) }, []);
+    }
+  }
+
+  #progressed(stage: string, fraction: number): void {
+    const now = performance.now();
+    if (stage === this.#told.stage && fraction < 1 && now - this.#told.time < PROGRESS_INTERVAL) return;
+    this.#told = { stage, time: now };
+    this.#host.post({ type: 'progress', id: this.#call, stage, fraction }, []);
+  }
+}
