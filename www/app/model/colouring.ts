@@ -13,21 +13,14 @@ export function colouring(mesh: QuadMesh, inspection: Inspection): Colouring {
     return { kind: 'scalar', values, range: [0, deepest(mesh)], map: 'levels' };
   }
   if (colour.value !== 'quality' || !values.value) return { kind: 'plain' };
-  const range = brush.value;
-  const shown = range ? values.value.map((v) => (v >= range.low && v <= range.high ? v : Number.NaN)) : values.value;
-  return { kind: 'scalar', values: shown, ...qualityScale(info.value) };
+  const range = brush.value ?? { low: Number.NEGATIVE_INFINITY, high: Number.POSITIVE_INFINITY };
+  const places = values.value.map((v) => (v >= range.low && v <= range.high ? qualityPlace(info.value, v) : Number.NaN));
+  return { kind: 'scalar', values: places, range: [0, 1], map: 'quality' };
 }
 
-/** The colour scale of a metric: its bad end is always the same colour. */
-export function qualityScale(info: MetricInfo): { range: [number, number]; map: 'quality' } {
-  const [low, high] = info.range;
-  return { range: info.worst === 'low' ? [low, high] : [high, low], map: 'quality' };
-}
-
-/** Where `value` stands on the quality map, from 0 (bad) to 1 (good). */
-export function qualityPlace(info: MetricInfo, value: number): number {
-  const [low, high] = qualityScale(info).range;
-  return (value - low) / (high - low);
+/** Where `value` stands on the quality map, from 0 (bad) to 1 (good), whether small or large values are bad. */
+export function qualityPlace({ range: [low, high], worst }: MetricInfo, value: number): number {
+  return worst === 'low' ? (value - low) / (high - low) : (high - value) / (high - low);
 }
 
 /** The greatest level of the mesh, at least 1. */

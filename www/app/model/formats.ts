@@ -1,6 +1,6 @@
 /** File formats by name and extension. */
 
-import type { ExportFormat, InputFormat } from 'hexmill';
+import type { OutputFormat, InputFormat } from 'hexmill';
 
 export interface FormatInfo<F extends string> {
   readonly format: F;
@@ -19,14 +19,14 @@ export const READABLE: readonly FormatInfo<InputFormat>[] = [
   { format: 'inp', extension: 'inp', label: 'Abaqus', note: '' },
 ];
 
-export const WRITABLE: readonly FormatInfo<ExportFormat>[] = [
-  { format: 'vtu', extension: 'vtu', label: 'VTK XML', note: 'ParaView; compressed, with levels, parents and tags' },
-  { format: 'vtk', extension: 'vtk', label: 'Legacy VTK', note: 'ParaView, PyVista' },
-  { format: 'msh', extension: 'msh', label: 'Gmsh 4.1', note: 'Gmsh, meshio, FEniCS' },
-  { format: 'inp', extension: 'inp', label: 'Abaqus', note: 'Abaqus, CalculiX; S4 shells' },
-  { format: 'medit', extension: 'mesh', label: 'MEDIT', note: 'MEDIT, libMeshb, FreeFem' },
-  { format: 'obj', extension: 'obj', label: 'Wavefront OBJ', note: 'Blender and most modellers' },
-  { format: 'glb', extension: 'glb', label: 'Binary glTF', note: 'for viewing; quads as triangles' },
+export const WRITABLE: readonly FormatInfo<OutputFormat>[] = [
+  { format: 'vtu', extension: 'vtu', label: 'ParaView', note: 'VTK XML, compressed, with levels, parents and tags' },
+  { format: 'vtk', extension: 'vtk', label: 'legacy', note: 'Legacy VTK: ParaView, PyVista' },
+  { format: 'msh', extension: 'msh', label: 'Gmsh', note: 'MSH 4.1: Gmsh, meshio, FEniCS' },
+  { format: 'inp', extension: 'inp', label: 'Abaqus', note: 'Input deck of S4 shells: Abaqus, CalculiX' },
+  { format: 'medit', extension: 'mesh', label: 'MEDIT', note: 'ASCII: MEDIT, libMeshb, FreeFem' },
+  { format: 'obj', extension: 'obj', label: 'Wavefront', note: 'Blender and most modellers' },
+  { format: 'glb', extension: 'glb', label: 'glTF', note: 'For viewing: quads become triangles' },
 ];
 
 /** For the file dialog. */

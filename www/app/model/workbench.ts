@@ -4,7 +4,7 @@
  */
 
 import { batch, computed, effect, signal } from '@preact/signals-core';
-import type { Estimate, ExportFormat, Mesher, QuadMesh, Surface } from 'hexmill';
+import type { Estimate, OutputFormat, Mesher, QuadMesh, Surface } from 'hexmill';
 import { complaint } from './complaint.js';
 import type { Complaint } from './complaint.js';
 import type { Example } from './examples.js';
@@ -302,7 +302,7 @@ export class Workbench {
   }
 
   /** The mesh as a file; null if it could not be written. */
-  async export(format: ExportFormat): Promise<{ name: string; content: Uint8Array } | null> {
+  async export(format: OutputFormat): Promise<{ name: string; content: Uint8Array } | null> {
     const result = this.result.value;
     const known = WRITABLE.find((info) => info.format === format);
     if (!result || !known) return null;

@@ -3,7 +3,6 @@
 import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { complaintNote, iconButton, select } from './controls.js';
-import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { WRITABLE } from '../model/formats.js';
 
@@ -15,11 +14,11 @@ export function exportStep(page: Page): TemplateResult {
     <div class="row export">
       ${select(
         'Export format',
-        WRITABLE.map(({ format, label, extension, note }) => ({ value: format, label: `.${extension}  ${label}`, note })),
+        WRITABLE.map(({ format, label, extension, note }) => ({ value: format, label: `${extension.toUpperCase()}, ${label}`, note })),
         page.exportFormat.value,
         (format) => (page.exportFormat.value = format),
       )}
-      <button class="button" id="export" type="button" ?disabled=${!hasResult} @click=${() => void page.download()}>${icon('download')}<span>Export</span></button>
+      <button class="button" id="export" type="button" ?disabled=${!hasResult} @click=${() => void page.download()}>Export</button>
       ${iconButton({ icon: 'link', label: 'Copy a link that opens this example with these settings', disabled: !input?.example, press: () => void page.copyLink() })}
       ${iconButton({ icon: 'terminal', label: 'Copy the command that makes this mesh from a terminal', disabled: !input, press: () => void page.copyCommand() })}
     </div>

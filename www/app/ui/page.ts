@@ -7,7 +7,7 @@ import { Inspection } from '../model/inspection.js';
 import { formatCommand, parseLink } from '../model/link.js';
 import type { Settings } from '../model/settings.js';
 import { Workbench } from '../model/workbench.js';
-import type { ExportFormat, Mesher } from 'hexmill';
+import type { OutputFormat, Mesher } from 'hexmill';
 import { Theme } from './theme.js';
 import { Viewport } from './viewport.js';
 
@@ -34,7 +34,7 @@ export class Page {
   readonly moreSize = signal(false);
   readonly logOpen = signal(false);
   readonly dropping = signal(false);
-  readonly exportFormat = signal<ExportFormat>('vtu');
+  readonly exportFormat = signal<OutputFormat>('vtu');
   /** A short word after an action, such as "Link copied". */
   readonly said = signal('');
 

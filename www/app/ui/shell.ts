@@ -9,8 +9,8 @@ import type { Page, Section, Sheet } from './page.js';
 
 /** The page's parts, each rendered by itself into the element of its id. */
 export const frame = html`
-  <div class="view" id="view"></div>
   <main class="overlay">
+    <div class="view" id="view"></div>
     <div class="steps" id="steps">
       <header id="header"></header>
       <div class="scroll">

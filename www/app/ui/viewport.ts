@@ -1,7 +1,9 @@
 /** The bridge to the 3D view: signals in, picks and drags out. The page works without a view. */
 
-import { effect, signal, untracked } from '@preact/signals-core';
+import { effect, signal } from '@preact/signals-core';
 import type { Colouring, DrawMesh, View, ViewRegion } from '../view.js';
+import type { QuadMesh } from 'hexmill';
+import { complaint } from '../model/complaint.js';
 import { colouring } from '../model/colouring.js';
 import type { Page } from './page.js';
 
@@ -33,13 +35,12 @@ export class Viewport {
     host.replaceChildren(canvas);
     try {
       const { createView } = await import('../view.js');
-      this.#connect(await createView(canvas));
+      const view = await createView(canvas);
       this.trouble.value = null;
+      this.#connect(view);
     } catch (error) {
       canvas.remove();
-      const reason = error instanceof Error ? error.message : String(error);
-      this.trouble.value = reason;
-      this.#page.workbench.log.add('error', `No 3D view: ${reason}`);
+      this.#fail(error);
     }
   }
 
@@ -81,7 +82,7 @@ export class Viewport {
     this.#view = view;
     this.ready.value = true;
     this.#listen(view);
-    this.#stop = [this.#drawMesh(view), this.#drawColours(view), this.#drawStyle(view), this.#drawRegions(view)];
+    this.#stop = [this.#drawStyle(view), this.#drawMesh(view), this.#drawRegions(view)];
   }
 
   #listen(view: View): void {
@@ -98,35 +99,44 @@ export class Viewport {
       if (workbench.shows.value === 'mesh') inspection.cell.value = hit?.face ?? null;
     });
     view.onLost((message) => {
-      this.trouble.value = message;
-      workbench.log.add('error', `3D view: ${message}`);
+      this.#drop();
+      this.#fail(message);
     });
   }
 
   #drawMesh(view: View): () => void {
-    let drawnInput: unknown = null;
+    let drawn: unknown = null;
+    let drawnOf: unknown = null;
     return effect(() => {
-      const { input, result, shows } = this.#page.workbench;
-      const surface = input.value?.surface ?? null;
-      const mesh = shows.value === 'mesh' ? result.value?.mesh : undefined;
-      const drawn: DrawMesh | null = mesh
-        ? { nodes: mesh.nodes, offsets: null, corners: mesh.quads }
-        : surface && { nodes: surface.nodes, offsets: surface.offsets, corners: surface.corners };
-      view.setMesh(drawn, { keepCamera: surface === drawnInput });
-      drawnInput = surface;
-      untracked(() => this.#colour(view));
+      const { workbench, inspection } = this.#page;
+      const surface = workbench.input.value?.surface ?? null;
+      const mesh = workbench.shows.value === 'mesh' ? (workbench.result.value?.mesh ?? null) : null;
+      const colours: Colouring = mesh ? colouring(mesh, inspection) : { kind: 'plain' };
+      this.#guard(() => {
+        if ((mesh ?? surface) !== drawn) {
+          drawn = mesh ?? surface;
+          view.setMesh(mesh ? ofQuads(mesh) : surface, { keepCamera: surface === drawnOf });
+          drawnOf = surface;
+        }
+        view.setColouring(colours);
+      });
     });
   }
 
-  #drawColours(view: View): () => void {
-    return effect(() => this.#colour(view));
+  /** Draws; what cannot be drawn, such as a mesh too large for the graphics card, is said and harms nothing else. */
+  #guard(draw: () => void): void {
+    try {
+      draw();
+      if (this.ready.peek()) this.trouble.value = null;
+    } catch (error) {
+      this.#fail(error);
+    }
   }
 
-  #colour(view: View): void {
-    const { workbench, inspection } = this.#page;
-    const mesh = workbench.shows.value === 'mesh' ? (workbench.result.value?.mesh ?? null) : null;
-    const chosen: Colouring = mesh ? colouring(mesh, inspection) : { kind: 'plain' };
-    view.setColouring(chosen);
+  #fail(error: unknown): void {
+    const reason = complaint(error).text;
+    this.trouble.value = reason;
+    this.#page.workbench.log.add('error', `3D view: ${reason}`);
   }
 
   #drawStyle(view: View): () => void {
@@ -144,4 +154,8 @@ export class Viewport {
       view.setRegions(regions.map(({ shape }): ViewRegion => shape), index < 0 ? null : index);
     });
   }
+}
+
+function ofQuads(mesh: QuadMesh): DrawMesh {
+  return { nodes: mesh.nodes, offsets: null, corners: mesh.quads };
 }

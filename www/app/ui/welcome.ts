@@ -16,7 +16,7 @@ export function welcome(page: Page): TemplateResult | typeof nothing {
   }
   if (workbench.input.value || workbench.running.value) return nothing;
   return html`<div class="welcome">
-    <h1>Drop a mesh here</h1>
+    <h1><span class="with-mouse">Drop a mesh here</span><span class="with-finger">Open a mesh</span></h1>
     <p>It becomes a conforming mesh of quads, as fine as you like where you like. Everything happens in this page: no file leaves your machine.</p>
     <div class="row centred">${filePicker(page, 'Choose a file…')}</div>
     <p class="formats">${READABLE.map(({ extension }) => `.${extension}`).join('   ')}</p>
