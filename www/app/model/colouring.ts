@@ -1,0 +1,59 @@
+/** Colours of cells: what the view is given, and the same colours for bars and legends. */
+
+import type { QuadMesh } from 'hexmill';
+import type { Colouring } from '../view.js';
+import type { Inspection } from './inspection.js';
+import type { MetricInfo } from './metrics.js';
+
+/** What the view is to colour `mesh` by. Cells outside the brushed range have no value and no colour. */
+export function colouring(mesh: QuadMesh, inspection: Inspection): Colouring {
+  const { colour, values, info, brush } = inspection;
+  if (colour.value === 'level') {
+    const values = Float32Array.from(mesh.level);
+    return { kind: 'scalar', values, range: [0, deepest(mesh)], map: 'levels' };
+  }
+  if (colour.value !== 'quality' || !values.value) return { kind: 'plain' };
+  const range = brush.value ?? { low: Number.NEGATIVE_INFINITY, high: Number.POSITIVE_INFINITY };
+  const places = values.value.map((v) => (v >= range.low && v <= range.high ? qualityPlace(info.value, v) : Number.NaN));
+  return { kind: 'scalar', values: places, range: [0, 1], map: 'quality' };
+}
+
+/** Where `value` stands on the quality map, from 0 (bad) to 1 (good), whether small or large values are bad. */
+export function qualityPlace({ range: [low, high], worst }: MetricInfo, value: number): number {
+  return worst === 'low' ? (value - low) / (high - low) : (high - value) / (high - low);
+}
+
+/** The greatest level of the mesh, at least 1. */
+export function deepest(mesh: QuadMesh): number {
+  return mesh.level.reduce((most, level) => Math.max(most, level), 1);
+}
+
+type Stop = readonly [place: number, red: number, green: number, blue: number];
+
+/** The view's maps (`src/scene/colour.rs`), for what is drawn beside it. */
+const MAPS: Record<'quality' | 'levels', readonly Stop[]> = {
+  quality: [
+    [0, 140, 10, 40], [0.2, 214, 66, 41], [0.4, 246, 145, 75], [0.6, 252, 212, 130],
+    [0.75, 236, 240, 214], [0.88, 150, 200, 226], [1, 74, 144, 200],
+  ],
+  levels: [
+    [0, 226, 232, 238], [0.14, 150, 205, 220], [0.29, 72, 160, 200], [0.43, 64, 110, 190],
+    [0.57, 110, 72, 170], [0.71, 176, 58, 140], [0.86, 230, 90, 95], [1, 250, 160, 80],
+  ],
+};
+
+/** The CSS colour at `place`, 0 to 1, of a map. */
+export function mapColour(map: keyof typeof MAPS, place: number): string {
+  const stops = MAPS[map];
+  const at = Math.min(1, Math.max(0, place));
+  const next = Math.max(1, stops.findIndex((stop) => stop[0] >= at));
+  const [low, ...from] = stops[next - 1] as Stop;
+  const [high, ...to] = stops[next] as Stop;
+  const share = (at - low) / (high - low);
+  return `rgb(${from.map((x, channel) => Math.round(x + share * ((to[channel] ?? x) - x))).join(' ')})`;
+}
+
+/** The map as a CSS gradient from left to right. */
+export function mapGradient(map: keyof typeof MAPS): string {
+  return `linear-gradient(90deg, ${MAPS[map].map(([place, ...rgb]) => `rgb(${rgb.join(' ')}) ${100 * place}%`).join(', ')})`;
+}

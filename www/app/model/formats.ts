@@ -1,0 +1,44 @@
+/** File formats by name and extension. */
+
+import type { OutputFormat, InputFormat } from 'hexmill';
+
+export interface FormatInfo<F extends string> {
+  readonly format: F;
+  readonly extension: string;
+  readonly label: string;
+  /** What it is for, in a few words. */
+  readonly note: string;
+}
+
+export const READABLE: readonly FormatInfo<InputFormat>[] = [
+  { format: 'obj', extension: 'obj', label: 'Wavefront OBJ', note: '' },
+  { format: 'vtu', extension: 'vtu', label: 'VTK XML', note: '' },
+  { format: 'vtk', extension: 'vtk', label: 'Legacy VTK', note: '' },
+  { format: 'medit', extension: 'mesh', label: 'MEDIT', note: '' },
+  { format: 'msh', extension: 'msh', label: 'Gmsh', note: '' },
+  { format: 'inp', extension: 'inp', label: 'Abaqus', note: '' },
+];
+
+export const WRITABLE: readonly FormatInfo<OutputFormat>[] = [
+  { format: 'vtu', extension: 'vtu', label: 'ParaView', note: 'VTK XML, compressed, with levels, parents and tags' },
+  { format: 'vtk', extension: 'vtk', label: 'legacy', note: 'Legacy VTK: ParaView, PyVista' },
+  { format: 'msh', extension: 'msh', label: 'Gmsh', note: 'MSH 4.1: Gmsh, meshio, FEniCS' },
+  { format: 'inp', extension: 'inp', label: 'Abaqus', note: 'Input deck of S4 shells: Abaqus, CalculiX' },
+  { format: 'medit', extension: 'mesh', label: 'MEDIT', note: 'ASCII: MEDIT, libMeshb, FreeFem' },
+  { format: 'obj', extension: 'obj', label: 'Wavefront', note: 'Blender and most modellers' },
+  { format: 'glb', extension: 'glb', label: 'glTF', note: 'For viewing: quads become triangles' },
+];
+
+/** For the file dialog. */
+export const ACCEPT = READABLE.map(({ extension }) => `.${extension}`).join(',');
+
+/** The format of a file by its name; undefined when its extension is none of ours. */
+export function formatOf(name: string): InputFormat | undefined {
+  const extension = name.slice(name.lastIndexOf('.') + 1).toLowerCase();
+  return READABLE.find((known) => known.extension === extension)?.format;
+}
+
+/** `model.obj` as `model`. */
+export function stem(name: string): string {
+  return name.replace(/\.[^.]+$/, '');
+}

@@ -1,0 +1,89 @@
+/** What the inspector looks at: a quality measure, a range of it, one cell, and the colours of all. */
+
+import { batch, computed, effect, signal } from '@preact/signals-core';
+import type { Metric } from 'hexmill';
+import { countBetween, isAcceptable, metricInfo, worstCells } from './metrics.js';
+import type { Workbench } from './workbench.js';
+
+export type Colour = 'plain' | 'level' | 'quality';
+
+export interface Range {
+  readonly low: number;
+  readonly high: number;
+}
+
+/** Worst cells listed. */
+const WORST = 100;
+
+export class Inspection {
+  readonly colour = signal<Colour>('plain');
+  readonly metric = signal<Metric>('scaledJacobian');
+  /** The measure of each quad of the result; null until it is there. */
+  readonly values = signal<Float32Array | null>(null);
+  /** The brushed range; null: all. */
+  readonly brush = signal<Range | null>(null);
+  /** The cell that is looked at. */
+  readonly cell = signal<number | null>(null);
+
+  readonly info = computed(() => metricInfo(this.metric.value));
+  readonly worst = computed<readonly number[]>(() => (this.values.value ? worstCells(this.values.value, this.info.value, WORST) : []));
+  /** Where `cell` stands among the worst, from 0; null if it is none of them. */
+  readonly rank = computed(() => {
+    const rank = this.cell.value === null ? -1 : this.worst.value.indexOf(this.cell.value);
+    return rank < 0 ? null : rank;
+  });
+  readonly acceptable = computed(() => {
+    let kept = 0;
+    for (const value of this.values.value ?? []) if (isAcceptable(this.info.value, value)) kept += 1;
+    return kept;
+  });
+  readonly brushed = computed(() => {
+    const range = this.brush.value;
+    return range && this.values.value ? countBetween(this.values.value, range.low, range.high) : null;
+  });
+
+  constructor(workbench: Workbench) {
+    effect(() => {
+      const mesh = workbench.result.value?.mesh ?? null;
+      const metric = this.metric.value;
+      batch(() => {
+        this.values.value = null;
+        this.brush.value = null;
+        this.cell.value = null;
+      });
+      if (!mesh) {
+        this.colour.value = 'plain';
+        return;
+      }
+      void Promise.resolve(mesh.qualityOf(metric)).then((values) => {
+        if (workbench.result.peek()?.mesh === mesh && this.metric.peek() === metric) this.values.value = values;
+      });
+    });
+  }
+
+  /** Looks at another metric and colours the cells by it. */
+  choose(metric: Metric): void {
+    batch(() => {
+      this.metric.value = metric;
+      this.colour.value = 'quality';
+    });
+  }
+
+  /** Brushes a range and shows it in the mesh; null ends it. */
+  select(range: Range | null): void {
+    batch(() => {
+      this.brush.value = range;
+      if (range) this.colour.value = 'quality';
+    });
+  }
+
+  /** The next of the worst cells (or, with -1, the one before). */
+  step(by: 1 | -1): number | null {
+    const list = this.worst.value;
+    if (list.length === 0) return null;
+    const rank = this.rank.value;
+    const next = rank === null ? 0 : (rank + by + list.length) % list.length;
+    this.cell.value = list[next] ?? null;
+    return this.cell.value;
+  }
+}

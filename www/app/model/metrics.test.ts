@@ -1,0 +1,29 @@
+import { expect, test } from 'vitest';
+import { countBetween, levelCounts, metricInfo, worstCells } from './metrics.js';
+import { mapColour, qualityPlace } from './colouring.js';
+
+test('worst cells come worst first, equal ones in the order of the mesh', () => {
+  const values = Float32Array.of(0.9, 0.2, 0.5, 0.2, 1, -1);
+  expect(worstCells(values, metricInfo('scaledJacobian'), 3)).toEqual([5, 1, 3]);
+  expect(worstCells(values, metricInfo('aspect'), 2)).toEqual([4, 0]);
+  expect(worstCells(values, metricInfo('minAngle'), 10)).toEqual([5, 1, 3, 2, 0, 4]);
+});
+
+test('worst cells agree with a full sort', () => {
+  let state = 1;
+  const values = Float32Array.from({ length: 5000 }, () => (state = (state * 48271) % 2147483647) / 2147483647);
+  const sorted = Array.from(values.keys()).sort((a, b) => (values[a] ?? 0) - (values[b] ?? 0) || a - b);
+  expect(worstCells(values, metricInfo('scaledJacobian'), 100)).toEqual(sorted.slice(0, 100));
+});
+
+test('counts', () => {
+  expect(countBetween(Float32Array.of(0, 0.5, 1, Number.NaN), 0.5, 1)).toBe(2);
+  expect(levelCounts(Uint8Array.of(1, 3, 3))).toEqual([0, 1, 0, 2]);
+});
+
+test('the bad end of every measure has the same colour', () => {
+  expect(mapColour('quality', qualityPlace(metricInfo('scaledJacobian'), -1))).toBe('rgb(140 10 40)');
+  expect(mapColour('quality', qualityPlace(metricInfo('maxAngle'), 180))).toBe('rgb(140 10 40)');
+  expect(mapColour('quality', qualityPlace(metricInfo('aspect'), 1))).toBe('rgb(74 144 200)');
+  expect(mapColour('levels', 0.5)).toBe('rgb(87 91 180)');
+});

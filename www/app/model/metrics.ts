@@ -1,0 +1,86 @@
+/** Quality measures of quads: names, units, and what is acceptable. */
+
+import type { Metric } from 'hexmill';
+
+export interface MetricInfo {
+  readonly metric: Metric;
+  readonly label: string;
+  /** Shown after figures. */
+  readonly unit: '' | '°';
+  readonly decimals: number;
+  /** Whether small values are the bad ones. */
+  readonly worst: 'low' | 'high';
+  /** The value of a square. */
+  readonly ideal: number;
+  /** The bound that acceptable cells keep. */
+  readonly acceptable: number;
+  /** What colours span. */
+  readonly range: readonly [number, number];
+  readonly says: string;
+}
+
+/**
+ * Acceptable ranges: the Verdict library's reference manual (Sandia, SAND2007-1751) for the scaled Jacobian and
+ * the angles; for the aspect ratio the Cubit manual's 1 to 4.
+ */
+export const METRICS: readonly MetricInfo[] = [
+  {
+    metric: 'scaledJacobian', label: 'Scaled Jacobian', unit: '', decimals: 3, worst: 'low', ideal: 1, acceptable: 0.3, range: [0, 1],
+    says: 'Least corner Jacobian over the lengths of its edges. 1 is a rectangle, 0 or less is degenerate.',
+  },
+  {
+    metric: 'minAngle', label: 'Minimum angle', unit: '°', decimals: 1, worst: 'low', ideal: 90, acceptable: 45, range: [0, 90],
+    says: 'Least angle at a corner.',
+  },
+  {
+    metric: 'maxAngle', label: 'Maximum angle', unit: '°', decimals: 1, worst: 'high', ideal: 90, acceptable: 135, range: [90, 180],
+    says: 'Greatest angle at a corner.',
+  },
+  {
+    metric: 'aspect', label: 'Aspect ratio', unit: '', decimals: 2, worst: 'high', ideal: 1, acceptable: 4, range: [1, 8],
+    says: 'Longest edge over shortest edge.',
+  },
+];
+
+export function metricInfo(metric: Metric): MetricInfo {
+  const found = METRICS.find((info) => info.metric === metric);
+  if (!found) throw new RangeError(`no metric ${metric}`);
+  return found;
+}
+
+/** Whether `value` is within what is acceptable. */
+export function isAcceptable(info: MetricInfo, value: number): boolean {
+  return info.worst === 'low' ? value >= info.acceptable : value <= info.acceptable;
+}
+
+/** How many of `values` lie from `low` to `high`. */
+export function countBetween(values: Float32Array, low: number, high: number): number {
+  let found = 0;
+  for (const value of values) if (value >= low && value <= high) found += 1;
+  return found;
+}
+
+/** The `wanted` worst cells, worst first; of equal ones the first in the mesh. */
+export function worstCells(values: Float32Array, info: MetricInfo, wanted: number): number[] {
+  const sign = info.worst === 'low' ? 1 : -1;
+  const cells: number[] = [];
+  const badness = (cell: number): number => sign * (values[cell] ?? Number.NaN);
+  let bound = Number.POSITIVE_INFINITY;
+  for (let cell = 0; cell < values.length; cell += 1) {
+    const value = badness(cell);
+    if (cells.length === wanted && !(value < bound)) continue;
+    let place = cells.length;
+    while (place > 0 && badness(cells[place - 1] ?? 0) > value) place -= 1;
+    cells.splice(place, 0, cell);
+    if (cells.length > wanted) cells.pop();
+    bound = badness(cells.at(-1) ?? 0);
+  }
+  return cells;
+}
+
+/** How many cells each level has, from level 0. */
+export function levelCounts(level: Uint8Array): number[] {
+  const counts: number[] = [];
+  for (const l of level) counts[l] = (counts[l] ?? 0) + 1;
+  return Array.from(counts, (n) => n ?? 0);
+}

@@ -1,0 +1,77 @@
+/** What the page asks of the mesher: everything that undo, the link and the command line carry. */
+
+import type { QuadOptions, Region as RegionOption } from 'hexmill';
+import type { ViewRegion } from '../view.js';
+
+export type Vec3 = [number, number, number];
+export type Shape = ViewRegion;
+export type ShapeKind = Shape['kind'];
+
+/** How fine a region is to be: no edge longer than `size` (model units), or refined `level` times. */
+export type Target = { by: 'size'; size: number } | { by: 'level'; level: number };
+
+/** A refinement region. `id` names it in the page; it is in no file and no link. */
+export interface Region {
+  readonly id: number;
+  readonly shape: Shape;
+  readonly target: Target;
+}
+
+export interface Settings {
+  /** What sizes the whole mesh: a length, or a number of refinements. The other value is kept for switching back. */
+  readonly by: 'length' | 'levels';
+  /** Model units. */
+  readonly edgeLength: number;
+  readonly levels: number;
+  /** Degrees of the normal's turn that one edge may span; null: curvature is not looked at. */
+  readonly curvature: number | null;
+  readonly gradation: number;
+  readonly keepCoarse: boolean;
+  readonly maxLevels: number;
+  readonly maxQuads: number;
+  readonly regions: readonly Region[];
+}
+
+export const LIMITS = {
+  levels: { min: 0, max: 12 },
+  curvature: { min: 1, max: 90, usual: 15 },
+  gradation: { min: 1.05, max: 2 },
+  maxQuads: { min: 1_000, max: 256_000_000 },
+} as const;
+
+export const DEFAULTS: Settings = {
+  by: 'length',
+  edgeLength: 1,
+  levels: 1,
+  curvature: null,
+  gradation: 2,
+  keepCoarse: false,
+  maxLevels: 12,
+  maxQuads: 16_000_000,
+  regions: [],
+};
+
+let lastId = 0;
+
+/** A region with an id that no other region of this page has. */
+export function region(shape: Shape, target: Target): Region {
+  lastId += 1;
+  return { id: lastId, shape, target };
+}
+
+/** The mesher's options for `settings`. */
+export function toOptions(settings: Settings): QuadOptions {
+  return {
+    ...(settings.by === 'length' ? { edgeLength: settings.edgeLength } : { levels: settings.levels }),
+    ...(settings.curvature === null ? {} : { curvature: settings.curvature }),
+    regions: settings.regions.map(toRegionOption),
+    gradation: settings.gradation,
+    keepCoarse: settings.keepCoarse,
+    maxLevels: settings.maxLevels,
+    maxQuads: settings.maxQuads,
+  };
+}
+
+function toRegionOption({ shape, target }: Region): RegionOption {
+  return target.by === 'size' ? { ...shape, size: target.size } : { ...shape, level: target.level };
+}

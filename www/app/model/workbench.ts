@@ -1,0 +1,359 @@
+/**
+ * The state of the page and what can be done with it. Panels read the signals and call the methods;
+ * the viewport draws what the signals say. No DOM here.
+ */
+
+import { batch, computed, effect, signal } from '@preact/signals-core';
+import type { Estimate, OutputFormat, Mesher, QuadMesh, Surface } from 'hexmill';
+import { complaint } from './complaint.js';
+import type { Complaint } from './complaint.js';
+import type { Example } from './examples.js';
+import { formatOf, stem, WRITABLE } from './formats.js';
+import { History } from './history.js';
+import { debounced, Latest } from './latest.js';
+import { formatLink } from './link.js';
+import { Log } from './log.js';
+import { DEFAULTS, region, toOptions } from './settings.js';
+import type { Region, Settings, Shape, ShapeKind, Vec3 } from './settings.js';
+import { center, diagonal, extent, fault, newShape, tidy, translated } from './shape.js';
+import type { Bounds } from './shape.js';
+import { bytes, counted, duration, rounded } from './text.js';
+
+/** The model that is loaded. */
+export interface Input {
+  readonly name: string;
+  readonly example: Example | null;
+  readonly surface: Surface;
+}
+
+/** A finished mesh with what made it. */
+export interface Result {
+  readonly mesh: QuadMesh;
+  readonly input: Input;
+  readonly settings: Settings;
+  readonly milliseconds: number;
+}
+
+/** Work that a person waits for. */
+export interface Running {
+  readonly what: 'reading' | 'meshing' | 'writing';
+  readonly stage: string;
+  /** 0 to 1 within the stage; null when unknown. */
+  readonly fraction: number | null;
+  readonly since: number;
+}
+
+/** Default edge length as a part of the model's diagonal. */
+const DEFAULT_FINENESS = 1 / 60;
+const ESTIMATE_DELAY = 120;
+/** Live meshing stops above this many quads. */
+export const LIVE_QUADS = 400_000;
+
+export class Workbench {
+  readonly log = new Log();
+  readonly input = signal<Input | null>(null);
+  readonly settings = signal<Settings>(DEFAULTS);
+  /** Id of the region that has handles. */
+  readonly selected = signal<number | null>(null);
+  readonly estimate = signal<Estimate | null>(null);
+  readonly running = signal<Running | null>(null);
+  readonly result = signal<Result | null>(null);
+  /** What went wrong, beside what caused it. */
+  readonly trouble = {
+    engine: signal<Complaint | null>(null),
+    input: signal<Complaint | null>(null),
+    estimate: signal<Complaint | null>(null),
+    mesh: signal<Complaint | null>(null),
+    output: signal<Complaint | null>(null),
+  };
+  readonly shows = signal<'input' | 'mesh'>('input');
+  readonly live = signal(false);
+  /** Where the model was last picked: where the next region goes. */
+  readonly pickedPoint = signal<Vec3 | null>(null);
+  readonly threads = signal<number | null>(null);
+  readonly canUndo = signal(false);
+  readonly canRedo = signal(false);
+
+  readonly bounds = computed<Bounds | null>(() => {
+    const info = this.input.value?.surface.info;
+    return info ? { min: info.bounds.min as Vec3, max: info.bounds.max as Vec3 } : null;
+  });
+  /** The first thing in the settings that no mesh can be made with. */
+  readonly fault = computed<string | null>(() => {
+    for (const [index, { shape }] of this.settings.value.regions.entries()) {
+      const problem = fault(shape);
+      if (problem) return `Region ${index + 1}: ${problem}`;
+    }
+    return null;
+  });
+  /** Whether the result is of the input and the settings as they now are. */
+  readonly isCurrent = computed(() => {
+    const result = this.result.value;
+    return result !== null && result.input === this.input.value && result.settings === this.settings.value;
+  });
+
+  readonly #mesher: Promise<Mesher>;
+  readonly #history = new History<Settings>();
+  readonly #work = new Latest();
+  readonly #estimates = new Latest();
+
+  constructor(mesher: Promise<Mesher>) {
+    this.#mesher = mesher;
+    mesher.then(
+      (ready) => {
+        this.threads.value = ready.threads;
+        this.log.add('info', `Mesher ready: ${counted(ready.threads, 'thread')}.`);
+      },
+      (error: unknown) => {
+        this.trouble.engine.value = complaint(error);
+        this.log.add('error', `The mesher did not start: ${complaint(error).text}`);
+      },
+    );
+    const estimate = debounced(() => void this.#estimate(), ESTIMATE_DELAY);
+    effect(() => {
+      if (this.input.value && this.settings.value && this.live.value !== null) estimate();
+    });
+  }
+
+  // ---- input
+
+  /** Reads a model. If it cannot be read, what was loaded stays. */
+  async load(name: string, content: () => Promise<ArrayBuffer>, example: Example | null = null, settings: Partial<Settings> = {}): Promise<void> {
+    this.trouble.input.value = null;
+    try {
+      const surface = await this.#busy('reading', async () => {
+        const mesher = await this.#mesher;
+        return await mesher.load(new Uint8Array(await content()), { name, ...formatOption(name) });
+      });
+      if (surface === null) return;
+      batch(() => {
+        this.input.value = { name, example, surface };
+        this.settings.value = fitting(surface, settings);
+        this.#forget();
+      });
+      this.log.add('info', `Read ${name}: ${counted(surface.info.faces, 'face')}, ${counted(surface.info.nodes, 'node')}.`);
+      for (const defect of surface.info.defects) this.log.add('warning', `${name}: ${defect}`);
+    } catch (error) {
+      const problem = complaint(error);
+      this.trouble.input.value = { ...problem, about: name };
+      this.log.add('error', `${name}: ${problem.text}`);
+    }
+  }
+
+  /** Loads an example that ships with the page, from `url`. */
+  async loadExample(example: Example, url: string, settings: Partial<Settings> = {}): Promise<void> {
+    await this.load(
+      example.file,
+      async () => {
+        const answer = await fetch(url);
+        if (!answer.ok) throw new Error(`The example could not be fetched (HTTP ${answer.status}). Reload the page and try again.`);
+        return await answer.arrayBuffer();
+      },
+      example,
+      settings,
+    );
+  }
+
+  #forget(): void {
+    this.#estimates.cancel();
+    this.result.value = null;
+    this.estimate.value = null;
+    this.shows.value = 'input';
+    this.selected.value = null;
+    this.pickedPoint.value = null;
+    this.trouble.mesh.value = null;
+    this.trouble.output.value = null;
+    this.#history.clear();
+    this.#syncHistory();
+  }
+
+  // ---- settings
+
+  /** Changes settings. Edits of the same `key` in quick succession are undone together. */
+  edit(change: Partial<Settings>, key = Object.keys(change).join()): void {
+    this.#history.record(this.settings.value, key);
+    this.settings.value = { ...this.settings.value, ...change };
+    this.#syncHistory();
+  }
+
+  undo(): void {
+    this.settings.value = this.#history.undo(this.settings.value);
+    this.#syncHistory();
+  }
+
+  redo(): void {
+    this.settings.value = this.#history.redo(this.settings.value);
+    this.#syncHistory();
+  }
+
+  #syncHistory(): void {
+    this.canUndo.value = this.#history.canUndo;
+    this.canRedo.value = this.#history.canRedo;
+    if (!this.settings.value.regions.some(({ id }) => id === this.selected.value)) this.selected.value = null;
+  }
+
+  // ---- regions
+
+  /** Adds a region at the picked point, else at the model's centre, and selects it. */
+  addRegion(kind: ShapeKind): void {
+    const bounds = this.bounds.value;
+    if (!bounds) return;
+    const settings = this.settings.value;
+    const size = rounded((settings.by === 'length' ? settings.edgeLength : diagonal(bounds) * DEFAULT_FINENESS) / 4);
+    const shape = newShape(kind, this.pickedPoint.value ?? center(bounds), bounds);
+    this.#append(region(shape, { by: 'size', size }));
+  }
+
+  duplicateRegion(id: number): void {
+    const original = this.settings.value.regions.find((r) => r.id === id);
+    if (!original) return;
+    this.#append(region(tidy(translated(original.shape, [extent(original.shape), 0, 0])), original.target));
+  }
+
+  #append(added: Region): void {
+    batch(() => {
+      this.edit({ regions: [...this.settings.value.regions, added] }, `add ${added.id}`);
+      this.selected.value = added.id;
+    });
+  }
+
+  deleteRegion(id: number): void {
+    this.edit({ regions: this.settings.value.regions.filter((r) => r.id !== id) }, `delete ${id}`);
+  }
+
+  editRegion(id: number, change: Partial<Pick<Region, 'shape' | 'target'>>): void {
+    const regions = this.settings.value.regions.map((r) => (r.id === id ? { ...r, ...change } : r));
+    this.edit({ regions }, `region ${id} ${Object.keys(change).join()}`);
+  }
+
+  /** A handle of region number `index` was dragged. */
+  dragRegion(index: number, shape: Shape, phase: 'drag' | 'end'): void {
+    const dragged = this.settings.value.regions[index];
+    if (!dragged) return;
+    this.editRegion(dragged.id, { shape: phase === 'end' ? tidy(shape) : shape });
+    if (phase === 'end') this.#history.seal();
+  }
+
+  // ---- estimate and mesh
+
+  async #estimate(): Promise<void> {
+    const input = this.input.value;
+    if (!input || this.fault.value) return this.#estimates.cancel();
+    try {
+      const mesher = await this.#mesher;
+      const options = toOptions(this.settings.value);
+      const estimate = await this.#estimates.run(() => mesher.estimateQuads(input.surface, options));
+      if (!estimate) return;
+      batch(() => {
+        this.estimate.value = estimate;
+        this.trouble.estimate.value = null;
+      });
+      this.#remesh();
+    } catch (error) {
+      batch(() => {
+        this.estimate.value = null;
+        this.trouble.estimate.value = complaint(error);
+      });
+    }
+  }
+
+  #remesh(): void {
+    const estimate = this.estimate.value;
+    if (this.live.value && !this.isCurrent.value && estimate && estimate.quads <= LIVE_QUADS) void this.mesh();
+  }
+
+  /** Makes the mesh; a later call overtakes an earlier one, and what was meshed before stays until then. */
+  async mesh(): Promise<void> {
+    const input = this.input.value;
+    const settings = this.settings.value;
+    if (!input || this.fault.value) return;
+    this.trouble.mesh.value = null;
+    const started = performance.now();
+    try {
+      const mesh = await this.#busy('meshing', async (signal, onProgress) => {
+        const mesher = await this.#mesher;
+        return await mesher.refineQuads(input.surface, { ...toOptions(settings), signal, onProgress });
+      });
+      if (mesh === null) return;
+      const milliseconds = performance.now() - started;
+      batch(() => {
+        this.result.value = { mesh, input, settings, milliseconds };
+        this.shows.value = 'mesh';
+        this.trouble.output.value = null;
+      });
+      const size = `${counted(mesh.quads.length / 4, 'quad')}, ${counted(mesh.nodes.length / 3, 'node')}`;
+      this.log.add('info', `Meshed ${input.name} in ${duration(milliseconds)}: ${size}, hash ${mesh.hash}.`);
+      for (const defect of mesh.defects) this.log.add('warning', defect);
+    } catch (error) {
+      const problem = complaint(error);
+      this.trouble.mesh.value = problem;
+      this.log.add('error', `Not meshed: ${problem.text}`);
+    }
+  }
+
+  /** Stops what runs. */
+  cancel(): void {
+    const running = this.running.value;
+    if (!running) return;
+    this.#work.cancel();
+    this.running.value = null;
+    const reached = running.stage ? ` while ${running.stage}` : '';
+    this.log.add('info', `Cancelled ${running.what} after ${duration(performance.now() - running.since)}${reached}.`);
+  }
+
+  /** The mesh as a file; null if it could not be written. */
+  async export(format: OutputFormat): Promise<{ name: string; content: Uint8Array } | null> {
+    const result = this.result.value;
+    const known = WRITABLE.find((info) => info.format === format);
+    if (!result || !known) return null;
+    this.trouble.output.value = null;
+    try {
+      const content = await this.#busy('writing', () => result.mesh.export(format));
+      if (content === null) return null;
+      const name = `${stem(result.input.name)}.${known.extension}`;
+      this.log.add('info', `Wrote ${name}: ${bytes(content.byteLength)}.`);
+      return { name, content };
+    } catch (error) {
+      const problem = complaint(error);
+      this.trouble.output.value = problem;
+      this.log.add('error', `Not written: ${problem.text}`);
+      return null;
+    }
+  }
+
+  /** The link that makes this job again; null unless the input is an example. */
+  link(): string | null {
+    const example = this.input.value?.example;
+    return example ? `#${formatLink(example.id, this.settings.value)}` : null;
+  }
+
+  async #busy<T>(what: Running['what'], work: (signal: AbortSignal, onProgress: (p: { stage: string; fraction: number }) => void) => Promise<T>): Promise<T | null> {
+    const own: Running = { what, stage: '', fraction: null, since: performance.now() };
+    let shown: Running = own;
+    this.cancel();
+    this.running.value = own;
+    try {
+      return await this.#work.run((signal) =>
+        work(signal, ({ stage, fraction }) => {
+          if (signal.aborted) return;
+          shown = { ...own, stage, fraction };
+          this.running.value = shown;
+        }),
+      );
+    } finally {
+      if (this.running.value === shown) this.running.value = null;
+    }
+  }
+}
+
+function formatOption(name: string): { format?: ReturnType<typeof formatOf> & string } {
+  const format = formatOf(name);
+  return format ? { format } : {};
+}
+
+/** The defaults for a model, overruled by `settings`. */
+function fitting(surface: Surface, settings: Partial<Settings>): Settings {
+  const { min, max } = surface.info.bounds;
+  const length = diagonal({ min: min as Vec3, max: max as Vec3 }) || surface.info.longestEdge || 1;
+  return { ...DEFAULTS, edgeLength: rounded(length * DEFAULT_FINENESS), ...settings };
+}

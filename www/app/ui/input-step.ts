@@ -1,0 +1,85 @@
+/** Step 1: the model. */
+
+import { html, nothing } from 'lit-html';
+import type { TemplateResult } from 'lit-html';
+import { complaintNote, select } from './controls.js';
+import { icon } from './icons.js';
+import type { Page } from './page.js';
+import { EXAMPLES } from '../model/examples.js';
+import { ACCEPT } from '../model/formats.js';
+import { count, significant } from '../model/text.js';
+import type { Input } from '../model/workbench.js';
+import type { SurfaceInfo } from 'hexmill';
+
+export function inputStep(page: Page): TemplateResult {
+  const input = page.workbench.input.value;
+  return html`
+    ${input ? inputSummary(input) : html`<p class="hint">Drop a mesh anywhere on the page, choose a file, or start from an example. Files stay on your machine.</p>`}
+    ${complaintNote(page.workbench.trouble.input.value)}
+    <div class="row">
+      ${filePicker(page, input ? 'Open another…' : 'Choose a file…')}
+      ${select(
+        'Example',
+        [{ value: '', label: 'Example' }, ...EXAMPLES.map(({ id, label }) => ({ value: id, label }))],
+        '',
+        (id) => id && page.openExample(id),
+      )}
+    </div>`;
+}
+
+/** The button that opens the file dialog. */
+export function filePicker(page: Page, label: string): TemplateResult {
+  const chosen = (event: Event): void => {
+    const picker = event.target as HTMLInputElement;
+    const [file] = picker.files ?? [];
+    if (file) page.openFile(file);
+    picker.value = '';
+  };
+  return html`<label class="button">
+    <input class="hidden" type="file" accept=${ACCEPT} @change=${chosen} />
+    ${icon('open')}<span>${label}</span>
+  </label>`;
+}
+
+function inputSummary({ name, example, surface }: Input): TemplateResult {
+  const { info } = surface;
+  const size = info.bounds.max.map((high, axis) => significant(high - (info.bounds.min[axis] ?? 0), 3));
+  return html`
+    <p class="file-name" title=${name}>${icon('file')}<span>${name}</span></p>
+    <dl class="facts">
+      <dt>Faces</dt><dd>${count(info.faces)}<small>${kinds(info)}</small></dd>
+      <dt>Nodes</dt><dd>${count(info.nodes)}</dd>
+      <dt>Size</dt><dd>${size.join(' × ')}</dd>
+      <dt>Edges</dt><dd>${significant(info.meanEdge, 3)} mean<small>${significant(info.longestEdge, 3)} longest</small></dd>
+      <dt>Surface</dt><dd>${closure(info)}<small>${pieces(info)}</small></dd>
+    </dl>
+    ${info.nonManifoldEdges > 0 ? html`<p class="notice">${icon('warn')}<span>${count(info.nonManifoldEdges)} edges join more than two faces. They are refined as they are.</span></p>` : nothing}
+    ${info.defects.length > 0 ? defectList(info.defects) : nothing}
+    ${example
+      ? html`<p class="credit">${example.by}. ${example.licence}. <a href=${example.source} target="_blank" rel="noopener">Source</a></p>`
+      : nothing}`;
+}
+
+const DEFECTS_SHOWN = 3;
+
+function defectList(defects: readonly string[]): TemplateResult {
+  const more = defects.length - DEFECTS_SHOWN;
+  return html`<div class="notice">${icon('warn')}
+    <ul>${defects.slice(0, DEFECTS_SHOWN).map((text) => html`<li>${text}</li>`)}${more > 0 ? html`<li>and ${count(more)} more, in the log</li>` : nothing}</ul>
+  </div>`;
+}
+
+function kinds(info: SurfaceInfo): string {
+  const parts: [number, string][] = [[info.triangles, 'triangles'], [info.quads, 'quads'], [info.polygons, 'polygons']];
+  const present = parts.filter(([n]) => n > 0);
+  if (present.length === 1) return `all ${present[0]?.[1] ?? ''}`;
+  return present.map(([n, name]) => `${count(n)} ${name}`).join(', ');
+}
+
+function closure(info: SurfaceInfo): string {
+  return info.boundaryEdges === 0 ? 'Closed' : `${count(info.boundaryEdges)} open edges`;
+}
+
+function pieces(info: SurfaceInfo): string {
+  return info.components === 1 ? 'one piece' : `${count(info.components)} pieces`;
+}

@@ -1,0 +1,136 @@
+/** The right column: what the mesh is like. */
+
+import { html, nothing } from 'lit-html';
+import type { TemplateResult } from 'lit-html';
+import { iconButton, segmented, select } from './controls.js';
+import { histogram } from './histogram.js';
+import { icon } from './icons.js';
+import type { Page } from './page.js';
+import { deepest, mapColour, qualityPlace } from '../model/colouring.js';
+import { isAcceptable, levelCounts, METRICS } from '../model/metrics.js';
+import { count, duration, fixed, percent, roughCount } from '../model/text.js';
+import type { Result } from '../model/workbench.js';
+
+export function inspector(page: Page): TemplateResult {
+  const result = page.workbench.result.value;
+  if (!result) {
+    return html`<div class="nothing">${icon('chart')}<p>Counts, checks and quality appear here once there is a mesh.</p></div>`;
+  }
+  return html`
+    ${figures(result)}
+    ${certificate(page, result)}
+    <section aria-labelledby="colour-title">
+      <h2 id="colour-title">Colour</h2>
+      ${segmented(
+        'Colour cells by',
+        [{ value: 'plain', label: 'Plain' }, { value: 'quality', label: 'Quality' }, { value: 'level', label: 'Level' }],
+        page.inspection.colour.value,
+        (colour) => (page.inspection.colour.value = colour),
+      )}
+    </section>
+    ${quality(page, result)} ${cell(page, result)} ${levels(page, result)}`;
+}
+
+function figures({ mesh, milliseconds }: Result): TemplateResult {
+  const quads = mesh.quads.length / 4;
+  return html`<section class="figures" aria-label="Counts">
+    <p><b data-figure="quads">${count(quads)}</b><span>quads</span></p>
+    <p><b data-figure="nodes">${count(mesh.nodes.length / 3)}</b><span>nodes</span></p>
+    <p class="aside">${duration(milliseconds)}, ${roughCount(quads / Math.max(1e-3, milliseconds / 1000))} quads a second</p>
+  </section>`;
+}
+
+/** What `mesh.defects` empty says, each by itself. */
+const CERTIFIED = ['Conforming: no hanging nodes', 'No repeated or unused nodes', 'Neighbours agree in orientation'];
+const DEFECTS_SHOWN = 6;
+
+function certificate(page: Page, { mesh }: Result): TemplateResult {
+  const { defects } = mesh;
+  const more = defects.length - DEFECTS_SHOWN;
+  return html`<section aria-labelledby="checks-title" data-valid=${String(defects.length === 0)}>
+    <h2 id="checks-title">Checks</h2>
+    <ul class="checks">
+      ${defects.length === 0
+        ? CERTIFIED.map((text) => html`<li class="good">${icon('check')}${text}</li>`)
+        : defects.slice(0, DEFECTS_SHOWN).map((text) => html`<li class="bad">${icon('warn')}${text}</li>`)}
+      ${more > 0 ? html`<li>and ${count(more)} more, in the log</li>` : nothing}
+    </ul>
+    <p class="hash"><span title="The same settings give this hash on every machine">Hash</span><code>${mesh.hash}</code>
+      ${iconButton({ icon: 'copy', label: 'Copy the hash', press: () => void page.copyHash(mesh.hash) })}</p>
+  </section>`;
+}
+
+function quality({ inspection }: Page, { mesh }: Result): TemplateResult {
+  const info = inspection.info.value;
+  const summary = mesh.quality[info.metric];
+  const text = (value: number): string => `${fixed(value, info.decimals)}${info.unit}`;
+  const quads = mesh.quads.length / 4;
+  const { brush, brushed, cell, values } = inspection;
+  const worst = info.worst === 'low' ? (['Min', summary.min] as const) : (['Max', summary.max] as const);
+  const stats = [worst, ['1st pct', summary.percentile1], ['Mean', summary.mean]] as const;
+  return html`<section aria-labelledby="quality-title">
+    <div class="title-row">
+      <h2 id="quality-title">Quality</h2>
+      ${select('Measure', METRICS.map(({ metric, label }) => ({ value: metric, label })), info.metric, (metric) => inspection.choose(metric))}
+    </div>
+    <dl class="stats">
+      ${stats.map(([name, value]) => html`<div class=${isAcceptable(info, value) ? '' : 'bad'}><dt>${name}</dt><dd>${text(value)}</dd></div>`)}
+    </dl>
+    ${histogram({
+      label: `Histogram of ${info.label.toLowerCase()}, ${text(summary.min)} to ${text(summary.max)}`,
+      histogram: summary.histogram, brush: brush.value, colour: (v) => mapColour('quality', qualityPlace(info, v)), text, bound: info.acceptable,
+      marked: cell.value === null ? null : (values.value?.[cell.value] ?? null), select: (range) => inspection.select(range),
+    })}
+    ${brush.value
+      ? html`<p class="hint">${count(brushed.value ?? 0)} cells from ${text(brush.value.low)} to ${text(brush.value.high)}.
+          <button class="text-button" type="button" @click=${() => inspection.select(null)}>Show all</button></p>`
+      : html`<p class="hint"><b>${percent(inspection.acceptable.value, quads)}</b> acceptable (${info.worst === 'low' ? 'at least' : 'at most'} ${text(info.acceptable)}). ${info.says}</p>`}
+  </section>`;
+}
+
+function cell(page: Page, { mesh }: Result): TemplateResult | typeof nothing {
+  const { inspection } = page;
+  const { cell, rank, worst, values, info } = inspection;
+  if (worst.value.length === 0) return nothing;
+  const go = (by: 1 | -1): void => {
+    const next = inspection.step(by);
+    if (next !== null) page.viewport.show(next);
+  };
+  const looked = cell.value;
+  const value = looked === null ? null : (values.value?.[looked] ?? null);
+  return html`<section aria-labelledby="cell-title">
+    <div class="title-row">
+      <h2 id="cell-title">${looked === null ? 'Worst cells' : rank.value === null ? 'Picked cell' : `Worst cells, ${rank.value + 1} of ${worst.value.length}`}</h2>
+      <span class="stepper">
+        ${iconButton({ icon: 'left', label: 'Previous of the worst cells', press: () => go(-1) })}
+        ${iconButton({ icon: 'chevron', label: 'Next of the worst cells', press: () => go(1) })}
+      </span>
+    </div>
+    ${looked === null || value === null
+      ? html`<p class="hint">Step through them, or click a cell in the view.</p>`
+      : html`<dl class="facts" data-cell=${looked}>
+          <dt>${info.value.label}</dt><dd>${fixed(value, info.value.decimals)}${info.value.unit}</dd>
+          <dt>Cell</dt><dd>${count(looked)}<small>level ${mesh.level[looked]}, of input face ${count(mesh.parent[looked] ?? 0)}</small></dd>
+          <dt>Nodes</dt><dd class="ids">${Array.from(mesh.quads.subarray(4 * looked, 4 * looked + 4), (node) => count(node)).join('  ')}</dd>
+        </dl>
+        <button class="text-button" type="button" @click=${() => page.viewport.show(looked)}>${icon('target')}Show it</button>`}
+  </section>`;
+}
+
+function levels({ inspection }: Page, { mesh }: Result): TemplateResult {
+  const counts = levelCounts(mesh.level);
+  const most = Math.max(...counts);
+  const isColoured = inspection.colour.value === 'level';
+  return html`<section aria-labelledby="levels-title">
+    <h2 id="levels-title">Levels</h2>
+    <ol class="levels" start="0">
+      ${counts.map((n, level) =>
+        n === 0
+          ? nothing
+          : html`<li><span>${level}</span>
+              <span class="bar" style="--part:${n / most};${isColoured ? `--bar:${mapColour('levels', level / deepest(mesh))}` : ''}"></span>
+              <span>${count(n)}</span></li>`,
+      )}
+    </ol>
+  </section>`;
+}

@@ -1,0 +1,49 @@
+/** Step 4: make the mesh. */
+
+import { html, nothing } from 'lit-html';
+import type { TemplateResult } from 'lit-html';
+import { complaintNote, toggle } from './controls.js';
+import type { Page } from './page.js';
+import { bytes, counted, roughCount } from '../model/text.js';
+import { LIVE_QUADS } from '../model/workbench.js';
+
+const IS_MAC = /Mac|iPhone|iPad/.test(navigator.platform);
+
+export function meshStep(page: Page): TemplateResult {
+  const { workbench } = page;
+  const isMeshing = workbench.running.value?.what === 'meshing';
+  return html`
+    ${complaintNote(workbench.trouble.mesh.value)}
+    <div class="estimate-row">
+      <p class="estimate" aria-live="polite">${estimate(page)}</p>
+      ${toggle('Live', workbench.live.value, (on) => (workbench.live.value = on))}
+    </div>
+    ${isMeshing
+      ? progress(page)
+      : html`<button class="button primary wide ${workbench.isCurrent.value ? 'settled' : ''}" id="mesh" type="button"
+          title=${`Make the mesh. Live: make it again after each change, up to ${roughCount(LIVE_QUADS)} quads.`}
+          ?disabled=${!workbench.input.value || workbench.fault.value !== null} @click=${() => void workbench.mesh()}>
+          <span>${workbench.isCurrent.value ? 'Meshed' : workbench.result.value ? 'Mesh again' : 'Mesh'}</span><kbd>${IS_MAC ? '⌘' : 'Ctrl'} ↵</kbd>
+        </button>`}`;
+}
+
+function estimate({ workbench }: Page): TemplateResult | string {
+  const guess = workbench.estimate.value;
+  const trouble = workbench.trouble.estimate.value;
+  if (workbench.fault.value) return html`<span class="fault">${workbench.fault.value}</span>`;
+  if (trouble) return html`<span class="fault">${trouble.text}</span>`;
+  if (!guess) return workbench.input.value ? 'Estimating…' : 'Open a model to begin';
+  const about = guess.exact ? '' : 'about ';
+  return html`${about}<b>${roughCount(guess.quads)}</b> quads<small>${counted(guess.levels, 'level')}, ${bytes(guess.bytes)}</small>`;
+}
+
+function progress({ workbench }: Page): TemplateResult | typeof nothing {
+  const running = workbench.running.value;
+  if (!running) return nothing;
+  const percent = running.fraction === null ? null : Math.round(100 * running.fraction);
+  return html`<div class="running">
+    <div class="running-text"><span>${running.stage || 'starting'}</span><span>${percent === null ? '' : `${percent} %`}</span></div>
+    <progress aria-label="Progress of this stage" max="1" .value=${running.fraction ?? 0}></progress>
+    <button class="button wide" id="cancel" type="button" @click=${() => workbench.cancel()}><span>Cancel</span><kbd>Esc</kbd></button>
+  </div>`;
+}

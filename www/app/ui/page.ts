@@ -1,0 +1,119 @@
+/** What the panels share: the workbench, the inspection, the viewport, and the state of the page itself. */
+
+import { signal } from '@preact/signals-core';
+import { EXAMPLES, exampleById } from '../model/examples.js';
+import { stem } from '../model/formats.js';
+import { Inspection } from '../model/inspection.js';
+import { formatCommand, parseLink } from '../model/link.js';
+import type { Settings } from '../model/settings.js';
+import { Workbench } from '../model/workbench.js';
+import type { OutputFormat, Mesher } from 'hexmill';
+import { Theme } from './theme.js';
+import { Viewport } from './viewport.js';
+
+/** The addresses of the examples, by file name. */
+const EXAMPLE_URLS = Object.fromEntries(
+  Object.entries(
+    import.meta.glob<string>('../../../examples/models/*.obj', { query: '?url', import: 'default', eager: true }),
+  ).map(([path, url]) => [path.slice(path.lastIndexOf('/') + 1), url]),
+);
+
+export type Section = 'input' | 'size' | 'regions';
+/** What a phone shows above the model. */
+export type Sheet = Section | 'inspect' | null;
+
+export class Page {
+  readonly workbench: Workbench;
+  readonly inspection: Inspection;
+  readonly theme = new Theme();
+  readonly viewport: Viewport;
+
+  readonly stepsFolded = signal(false);
+  readonly inspectorFolded = signal(false);
+  readonly sheet = signal<Sheet>(null);
+  readonly moreSize = signal(false);
+  readonly logOpen = signal(false);
+  readonly dropping = signal(false);
+  readonly exportFormat = signal<OutputFormat>('vtu');
+  /** A short word after an action, such as "Link copied". */
+  readonly said = signal('');
+
+  constructor(mesher: Promise<Mesher>) {
+    this.workbench = new Workbench(mesher);
+    this.inspection = new Inspection(this.workbench);
+    this.viewport = new Viewport(this);
+  }
+
+  openFile(file: File): void {
+    void this.workbench.load(file.name, () => file.arrayBuffer());
+  }
+
+  openExample(id: string, settings: Partial<Settings> = {}): void {
+    const example = exampleById(id);
+    const url = example && EXAMPLE_URLS[example.file];
+    if (example && url) void this.workbench.loadExample(example, url, settings);
+    else this.say(`There is no example "${id}". There are ${EXAMPLES.map((known) => known.id).join(', ')}.`);
+  }
+
+  /** Opens what the address asks for. */
+  openLink(): void {
+    const linked = parseLink(location.hash);
+    if (linked && location.hash !== this.workbench.link()) this.openExample(linked.example, linked.settings);
+  }
+
+  async download(): Promise<void> {
+    const file = await this.workbench.export(this.exportFormat.value);
+    if (file) save(file.name, new Blob([file.content as Uint8Array<ArrayBuffer>]));
+  }
+
+  async screenshot(): Promise<void> {
+    const picture = await this.viewport.screenshot();
+    if (picture) save(`${stem(this.workbench.input.value?.name ?? 'hexmill')}.png`, picture);
+  }
+
+  async copyLink(): Promise<void> {
+    const link = this.workbench.link();
+    if (link) await this.#copy(new URL(link, location.href).href, 'Link copied');
+  }
+
+  async copyCommand(): Promise<void> {
+    const { input, settings } = this.workbench;
+    const name = input.value?.name;
+    if (name) await this.#copy(formatCommand(name, `${stem(name)}-mesh.${this.exportFormat.value === 'medit' ? 'mesh' : this.exportFormat.value}`, settings.value), 'Command copied');
+  }
+
+  async copyHash(hash: string): Promise<void> {
+    await this.#copy(hash, 'Hash copied');
+  }
+
+  /** Says something in the status line for a few seconds. */
+  say(text: string): void {
+    this.said.value = text;
+    setTimeout(() => {
+      if (this.said.value === text) this.said.value = '';
+    }, SAID_FOR);
+  }
+
+  async #copy(text: string, done: string): Promise<void> {
+    try {
+      await navigator.clipboard.writeText(text);
+      this.say(done);
+    } catch {
+      this.workbench.log.add('info', text);
+      this.logOpen.value = true;
+      this.say('The browser allows no copying here; the text is in the log');
+    }
+  }
+}
+
+/** Milliseconds. */
+const SAID_FOR = 4000;
+
+function save(name: string, content: Blob): void {
+  const url = URL.createObjectURL(content);
+  const anchor = document.createElement('a');
+  anchor.href = url;
+  anchor.download = name;
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(url), 60_000);
+}

@@ -1,0 +1,86 @@
+/** Step 3: where the mesh is finer. */
+
+import { html, nothing } from 'lit-html';
+import type { TemplateResult } from 'lit-html';
+import { repeat } from 'lit-html/directives/repeat.js';
+import { iconButton, numberField, segmented } from './controls.js';
+import { icon } from './icons.js';
+import type { Page } from './page.js';
+import { LIMITS } from '../model/settings.js';
+import type { Region, Shape, Target, Vec3 } from '../model/settings.js';
+import { fault, SHAPES } from '../model/shape.js';
+import { counted, rounded, significant } from '../model/text.js';
+
+export function regionsStep(page: Page): TemplateResult {
+  const { workbench } = page;
+  const { regions } = workbench.settings.value;
+  return html`
+    <div class="adders" role="group" aria-label="Add a region">
+      ${SHAPES.map(
+        ({ kind, label }) => html`<button class="button" type="button" ?disabled=${!workbench.input.value} aria-label="Add ${label.toLowerCase()}"
+          @click=${() => workbench.addRegion(kind)}>${icon(kind)}<span>${label}</span></button>`,
+      )}
+    </div>
+    ${regions.length === 0
+      ? html`<p class="hint">Add a region and drag its handles in the view. It lands where you last clicked on the model.</p>`
+      : html`<ol class="regions">${repeat(regions, ({ id }) => id, (region, index) => regionItem(page, region, index))}</ol>`}`;
+}
+
+function regionItem(page: Page, region: Region, index: number): TemplateResult {
+  const { workbench } = page;
+  const isOpen = workbench.selected.value === region.id;
+  const name = `${SHAPES.find(({ kind }) => kind === region.shape.kind)?.label ?? ''} ${index + 1}`;
+  return html`<li class=${isOpen ? 'open' : ''} data-region=${index}>
+    <div class="region-head">
+      <button class="region-name" type="button" aria-expanded=${isOpen} @click=${() => (workbench.selected.value = isOpen ? null : region.id)}>
+        ${icon(region.shape.kind)}<span>${name}</span><small>${describe(region.target)}</small>
+      </button>
+      ${iconButton({ icon: 'copy', label: `Duplicate ${name}`, press: () => workbench.duplicateRegion(region.id) })}
+      ${iconButton({ icon: 'bin', label: `Delete ${name}`, press: () => workbench.deleteRegion(region.id) })}
+    </div>
+    ${isOpen ? editor(page, region) : nothing}
+  </li>`;
+}
+
+function describe(target: Target): string {
+  return target.by === 'size' ? `edges ≤ ${significant(target.size, 3)}` : counted(target.level, 'level');
+}
+
+function editor({ workbench }: Page, { id, shape, target }: Region): TemplateResult {
+  const reshape = (change: Partial<Shape>): void => workbench.editRegion(id, { shape: { ...shape, ...change } as Shape });
+  const problem = fault(shape);
+  return html`<div class="region-editor">
+    ${shapeFields(shape, reshape)}
+    ${problem ? html`<p class="fault" role="alert">${problem}</p>` : nothing}
+    ${segmented(
+      'Region sized by',
+      [{ value: 'size', label: 'Edge length' }, { value: 'level', label: 'Level' }],
+      target.by,
+      (by) => workbench.editRegion(id, { target: by === 'size' ? { by, size: rounded(workbench.settings.value.edgeLength / 4) } : { by, level: 3 } }),
+    )}
+    ${target.by === 'size'
+      ? numberField({ label: 'Inside, no edge longer than', value: target.size, min: 0, open: true, unit: 'model units', change: (size) => workbench.editRegion(id, { target: { by: 'size', size } }) })
+      : numberField({ label: 'Inside, refine the input', value: target.level, ...LIMITS.levels, whole: true, step: 1, unit: target.level === 1 ? 'time' : 'times', change: (level) => workbench.editRegion(id, { target: { by: 'level', level } }) })}
+  </div>`;
+}
+
+function shapeFields(shape: Shape, change: (change: Partial<Shape>) => void): TemplateResult {
+  const radius = (value: number): TemplateResult => numberField({ label: 'Radius', value, min: 0, open: true, change: (radius) => change({ radius }) });
+  switch (shape.kind) {
+    case 'box':
+      return html`${triple('Minimum', shape.min, (min) => change({ min }))}${triple('Maximum', shape.max, (max) => change({ max }))}
+        ${shape.rotation ? html`<button class="text-button" type="button" @click=${() => change({ rotation: [0, 0, 0, 1] })}>Turn upright</button>` : nothing}`;
+    case 'sphere':
+      return html`${triple('Centre', shape.center, (center) => change({ center }))}${radius(shape.radius)}`;
+    case 'cylinder':
+      return html`${triple('From', shape.from, (from) => change({ from }))}${triple('To', shape.to, (to) => change({ to }))}${radius(shape.radius)}`;
+  }
+}
+
+/** Three coordinates in a row. */
+function triple(label: string, value: Vec3, change: (value: Vec3) => void): TemplateResult {
+  const at = (axis: number) => (x: number): void => change(value.map((old, i) => (i === axis ? x : old)) as Vec3);
+  return html`<fieldset class="triple"><legend>${label}</legend>
+    ${value.map((x, axis) => numberField({ label: `${label} ${'xyz'[axis]}`, inline: 'xyz'[axis] ?? '', value: x, change: at(axis) }))}
+  </fieldset>`;
+}

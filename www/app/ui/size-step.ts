@@ -1,0 +1,86 @@
+/** Step 2: how fine the whole mesh is. */
+
+import { html, nothing } from 'lit-html';
+import type { TemplateResult } from 'lit-html';
+import { numberField, segmented, slider, toggle } from './controls.js';
+import type { Page } from './page.js';
+import { LIMITS } from '../model/settings.js';
+import { diagonal } from '../model/shape.js';
+import { counted, editable, significant } from '../model/text.js';
+
+/** The slider spans these parts of the model's diagonal. */
+const FINEST = 1 / 2000;
+const COARSEST = 1 / 4;
+
+export function sizeStep(page: Page): TemplateResult {
+  const { workbench } = page;
+  const settings = workbench.settings.value;
+  return html`
+    ${segmented(
+      'Sized by',
+      [{ value: 'length', label: 'Edge length' }, { value: 'levels', label: 'Levels' }],
+      settings.by,
+      (by) => workbench.edit({ by }),
+    )}
+    ${settings.by === 'length' ? edgeLength(page) : levels(page)}
+    ${curvature(page)}
+    <details class="more" ?open=${page.moreSize.value} @toggle=${(event: Event) => (page.moreSize.value = (event.target as HTMLDetailsElement).open)}>
+      <summary>Growth and limits</summary>
+      ${further(page)}
+    </details>`;
+}
+
+function edgeLength({ workbench }: Page): TemplateResult {
+  const bounds = workbench.bounds.value;
+  const length = (bounds && diagonal(bounds)) || 1;
+  const { edgeLength: value } = workbench.settings.value;
+  const change = (edgeLength: number): void => workbench.edit({ edgeLength });
+  return html`
+    ${numberField({ label: 'No edge longer than', value, min: 0, open: true, unit: 'model units', change })}
+    ${slider({
+      label: 'Edge length', value, min: length * FINEST, max: length * COARSEST, logarithmic: true,
+      text: (v) => `${significant(v)} model units`, change,
+    })}
+    <div class="ends" aria-hidden="true"><span>finer</span><span>coarser</span></div>`;
+}
+
+function levels({ workbench }: Page): TemplateResult {
+  const { levels: value } = workbench.settings.value;
+  const change = (levels: number): void => workbench.edit({ levels });
+  return html`
+    ${numberField({ label: 'Refine everything', value, ...LIMITS.levels, whole: true, step: 1, unit: value === 1 ? 'time' : 'times', change })}
+    ${slider({ label: 'Levels', value: Math.min(value, 6), min: 0, max: 6, step: 1, text: (v) => counted(v, 'level'), change })}
+    <p class="hint">Each level splits a quad into four; the first turns any face into quads.</p>`;
+}
+
+function curvature({ workbench }: Page): TemplateResult {
+  const { curvature: value } = workbench.settings.value;
+  return html`
+    ${toggle('Follow curvature', value !== null, (on) => workbench.edit({ curvature: on ? LIMITS.curvature.usual : null }))}
+    ${value === null
+      ? nothing
+      : html`${numberField({
+          label: 'Turn of the surface along one edge, at most', value, ...pick(LIMITS.curvature), unit: 'degrees', step: 1,
+          change: (curvature) => workbench.edit({ curvature }),
+        })}`}`;
+}
+
+function pick({ min, max }: { min: number; max: number }): { min: number; max: number } {
+  return { min, max };
+}
+
+function further({ workbench }: Page): TemplateResult {
+  const { gradation, keepCoarse, maxLevels, maxQuads } = workbench.settings.value;
+  const allQuads = workbench.input.value?.surface.info;
+  const canKeep = !allQuads || allQuads.quads === allQuads.faces;
+  return html`
+    ${numberField({ label: 'Growth from one cell to the next, at most', value: gradation, ...LIMITS.gradation, unit: 'times', step: 0.05, change: (v) => workbench.edit({ gradation: v }) })}
+    <div class="pair">
+      ${numberField({ label: 'Deepest level', value: maxLevels, ...LIMITS.levels, whole: true, step: 1, change: (v) => workbench.edit({ maxLevels: v }) })}
+      ${numberField({ label: 'Most quads', value: maxQuads, ...LIMITS.maxQuads, whole: true, step: 1_000_000, change: (v) => workbench.edit({ maxQuads: v }) })}
+    </div>
+    ${toggle(
+      'Keep coarse quads', keepCoarse, (on) => workbench.edit({ keepCoarse: on }),
+      canKeep ? 'Quads that nothing asks to refine stay whole.' : `Needs an input of quads only; this one has ${editable((allQuads?.faces ?? 0) - (allQuads?.quads ?? 0), 9)} other faces.`,
+    )}`;
+}

@@ -1,0 +1,46 @@
+/** The middle of the page while there is no model, or no picture of one. */
+
+import { html, nothing } from 'lit-html';
+import type { TemplateResult } from 'lit-html';
+import { icon } from './icons.js';
+import { filePicker } from './input-step.js';
+import type { Page } from './page.js';
+import { EXAMPLES } from '../model/examples.js';
+import { READABLE } from '../model/formats.js';
+
+export function welcome(page: Page): TemplateResult | typeof nothing {
+  const { workbench } = page;
+  const engine = workbench.trouble.engine.value;
+  if (engine) {
+    return message('The mesher did not start', html`<p>${engine.text}</p><p>Reload the page; if that does not help, try a current Firefox, Chrome or Safari.</p>`);
+  }
+  if (workbench.input.value || workbench.running.value) return nothing;
+  return html`<div class="welcome">
+    <h1><span class="with-mouse">Drop a mesh here</span><span class="with-finger">Open a mesh</span></h1>
+    <p>It becomes a conforming mesh of quads, as fine as you like where you like. Everything happens in this page: no file leaves your machine.</p>
+    <div class="row centred">${filePicker(page, 'Choose a file…')}</div>
+    <p class="formats">${READABLE.map(({ extension }) => `.${extension}`).join('   ')}</p>
+    <h2>Or start from an example</h2>
+    <ul class="examples">
+      ${EXAMPLES.map(
+        ({ id, label, faces, by, licence }) => html`<li><button type="button" title=${`${by}. ${licence}.`} @click=${() => page.openExample(id)}>
+          <b>${label}</b><small>${faces}</small></button></li>`,
+      )}
+    </ul>
+  </div>`;
+}
+
+/** Why there is no picture, with a way to get one again. */
+export function viewTrouble(page: Page, restart: () => void): TemplateResult | typeof nothing {
+  const trouble = page.viewport.trouble.value;
+  if (!trouble) return nothing;
+  return message(
+    'No 3D view',
+    html`<p>${trouble}</p><p>Meshing, checks and export work without it.</p>
+      <button class="button" type="button" @click=${restart}>Try again</button>`,
+  );
+}
+
+function message(title: string, content: TemplateResult): TemplateResult {
+  return html`<div class="message" role="alert">${icon('warn')}<div><h2>${title}</h2>${content}</div></div>`;
+}
