@@ -17,4 +17,4 @@ mod quadtree;
 
 pub use base::BaseError;
 pub use quadtree::{Level, QuadForest};
-pub(crate) use quadtree::{UNDIVIDED, center, midpoint};
+pub(crate) use quadtree::{UNDIVIDED, center, grow, midpoint};

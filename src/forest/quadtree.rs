@@ -153,17 +153,11 @@ impl QuadForest {
             }
         }
         let divided = &edges.split[first_split..];
-        let face_nodes = NodeId::new(first_node + divided.len());
-        self.positions.resize(face_nodes.index() + marked.len(), Point::ZERO);
-        let (old, new) = self.positions.split_at_mut(first_node);
-        let (edge_positions, face_positions) = new.split_at_mut(divided.len());
-        edge_positions.par_iter_mut().zip(divided).for_each(|(p, edge)| {
-            *p = midpoint(old, edges.ends[edge.index()]);
+        grow(&mut self.positions, divided.len() + marked.len(), |old, k| match divided.get(k) {
+            Some(edge) => midpoint(old, edges.ends[edge.index()]),
+            None => center(old, elements[marked[k - divided.len()] as usize]),
         });
-        face_positions.par_iter_mut().zip(marked).for_each(|(p, &e)| {
-            *p = center(old, elements[e as usize]);
-        });
-        face_nodes
+        NodeId::new(first_node + divided.len())
     }
 
     /// Makes all edges of the levels that have refined elements.
@@ -234,6 +228,19 @@ pub(crate) fn midpoint(positions: &[Point], ends: [NodeId; 2]) -> Point {
 pub(crate) fn center(positions: &[Point], element: [NodeId; 4]) -> Point {
     let [a, b, c, d] = element.map(|n| positions[n.index()]);
     ((a + c) + (b + d)) * 0.25
+}
+
+/// Appends `count` points, each made from the points before and its place among the new ones.
+pub(crate) fn grow(points: &mut Vec<Point>, count: usize, make: impl Fn(&[Point], usize) -> Point + Sync) {
+    let new = |old: &[Point]| (0..count).into_par_iter().map(|k| make(old, k)).collect::<Vec<_>>();
+    if count < points.len() {
+        points.append(&mut new(points));
+        return;
+    }
+    // Copying the fewer old points lets all be written by many threads, straight to their places.
+    let old = std::mem::take(points);
+    points.reserve_exact(old.len() + count);
+    points.par_extend(old.par_iter().copied().chain((0..count).into_par_iter().map(|k| make(&old, k))));
 }
 
 /// Appends `more` to `all`, without a copy where `all` is empty.

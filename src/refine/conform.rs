@@ -17,7 +17,7 @@
 use rayon::prelude::*;
 
 use super::RefinedQuads;
-use crate::forest::{Level, QuadForest, UNDIVIDED, center, midpoint};
+use crate::forest::{Level, QuadForest, UNDIVIDED, center, grow, midpoint};
 use crate::geometry::Point;
 use crate::mesh::{FaceId, NodeId, QuadMesh, Tags};
 use crate::template::quad::{Cells, SPLIT, TEMPLATE_1, place};
@@ -35,16 +35,14 @@ pub(super) fn conform(
     forest.complete_edges();
     let QuadForest { mut positions, levels, base_level } = forest;
     let active = active_nodes(&levels, positions.len());
+    let transitions: Vec<Transition> =
+        levels.par_iter().map(|level| Transition::of(level, &active)).collect();
+    let mut out = Leaves::with_capacity(transitions.iter().map(Transition::quad_count).sum());
     let depth = levels.len();
-    let mut out = Leaves::default();
-    for (k, mut level) in levels.into_iter().enumerate() {
+    for (k, (mut level, transition)) in levels.into_iter().zip(&transitions).enumerate() {
         monitor.checkpoint(TEMPLATES, k as f64 / depth as f64)?;
-        if level.refined.is_empty() {
-            out.keep(level);
-        } else {
-            divide_active_edges(&mut level, &active, &mut positions);
-            out.conform(&level, &Transition::of(&level, &active), &mut positions);
-        }
+        divide_active_edges(&mut level, &active, &mut positions);
+        out.conform(level, transition, &mut positions);
         out.level.resize(out.quads.len(), base_level + k as u8);
     }
     let tags = tags.inherited(bytemuck::cast_slice(&out.parent));
@@ -66,31 +64,56 @@ fn active_nodes(levels: &[Level], node_count: usize) -> Vec<bool> {
 }
 
 /// The elements of a level that are not refined, by what becomes of them.
+#[derive(Default)]
 struct Transition {
     /// Those that stay as they are.
-    stay: Vec<u32>,
+    stay: Stay,
     /// Those with the active node at local node 1, and at 3.
     one: [Vec<u32>; 2],
     /// Those with two active nodes.
     two: Vec<u32>,
 }
 
+/// Elements that no template changes.
+enum Stay {
+    All(usize),
+    Some(Vec<u32>),
+}
+
+impl Default for Stay {
+    fn default() -> Self {
+        Self::Some(Vec::new())
+    }
+}
+
 impl Transition {
     fn of(level: &Level, active: &[bool]) -> Self {
-        let select = |first: bool, second: bool| -> Vec<u32> {
-            let all = (0..level.elements.len()).into_par_iter();
-            all.filter(|&e| {
-                let [_, a, _, b] = level.elements[e];
-                !level.is_refined[e] && (active[a.index()], active[b.index()]) == (first, second)
-            })
-            .map(|e| e as u32)
-            .collect()
+        if level.refined.is_empty() {
+            return Self { stay: Stay::All(level.elements.len()), ..Self::default() };
+        }
+        let all = (0..level.elements.len() as u32).into_par_iter();
+        let left: Vec<u32> = all.filter(|&e| !level.is_refined[e as usize]).collect();
+        let select = |wanted: (bool, bool)| -> Vec<u32> {
+            let edge_nodes = |e: u32| {
+                let [_, a, _, b] = level.elements[e as usize];
+                (active[a.index()], active[b.index()])
+            };
+            left.par_iter().copied().filter(|&e| edge_nodes(e) == wanted).collect()
         };
         Self {
-            stay: select(false, false),
-            one: [select(true, false), select(false, true)],
-            two: select(true, true),
+            stay: Stay::Some(select((false, false))),
+            one: [select((true, false)), select((false, true))],
+            two: select((true, true)),
         }
+    }
+
+    /// How many quads the elements become.
+    fn quad_count(&self) -> usize {
+        let stay = match &self.stay {
+            Stay::All(count) => *count,
+            Stay::Some(elements) => elements.len(),
+        };
+        stay + 3 * (self.one[0].len() + self.one[1].len()) + 4 * self.two.len()
     }
 }
 
@@ -105,7 +128,6 @@ fn divide_active_edges(level: &mut Level, active: &[bool], positions: &mut Vec<P
 }
 
 /// The quads of the result so far.
-#[derive(Default)]
 struct Leaves {
     quads: Vec<[NodeId; 4]>,
     level: Vec<u8>,
@@ -113,24 +135,35 @@ struct Leaves {
 }
 
 impl Leaves {
-    /// Takes a level none of whose elements is refined: no edge node of it is active.
-    fn keep(&mut self, level: Level) {
-        self.parent.par_extend(level.roots());
-        if self.quads.is_empty() {
-            self.quads = level.elements;
-        } else {
-            self.quads.extend_from_slice(&level.elements);
+    fn with_capacity(quads: usize) -> Self {
+        Self {
+            quads: Vec::with_capacity(quads),
+            level: Vec::with_capacity(quads),
+            parent: Vec::with_capacity(quads),
         }
     }
 
     /// Takes the elements of a level that are not refined, by their templates.
-    fn conform(&mut self, level: &Level, transition: &Transition, positions: &mut Vec<Point>) {
+    fn conform(&mut self, level: Level, transition: &Transition, positions: &mut Vec<Point>) {
         let Transition { stay, one: [first, third], two } = transition;
-        self.parent.par_extend(stay.par_iter().map(|&e| level.root(e as usize)));
-        self.quads.par_extend(stay.par_iter().map(|&e| level.elements[e as usize]));
-        self.apply(&TEMPLATE_1[1], first, level, positions);
-        self.apply(&TEMPLATE_1[3], third, level, positions);
-        self.apply(&SPLIT, two, level, positions);
+        match stay {
+            Stay::All(_) => {
+                self.parent.par_extend(level.roots());
+                if self.quads.is_empty() {
+                    self.quads = level.elements;
+                } else {
+                    self.quads.par_extend(&level.elements);
+                }
+                return;
+            }
+            Stay::Some(elements) => {
+                self.parent.par_extend(elements.par_iter().map(|&e| level.root(e as usize)));
+                self.quads.par_extend(elements.par_iter().map(|&e| level.elements[e as usize]));
+            }
+        }
+        self.apply(&TEMPLATE_1[1], first, &level, positions);
+        self.apply(&TEMPLATE_1[3], third, &level, positions);
+        self.apply(&SPLIT, two, &level, positions);
     }
 
     /// Applies a template to `elements` of a level, giving each a face node.
@@ -142,9 +175,7 @@ impl Leaves {
         positions: &mut Vec<Point>,
     ) {
         let first_face_node = positions.len();
-        let centers: Vec<_> =
-            elements.par_iter().map(|&e| center(positions, level.elements[e as usize])).collect();
-        positions.extend_from_slice(&centers);
+        grow(positions, elements.len(), |old, k| center(old, level.elements[elements[k] as usize]));
         let cells: Vec<[[NodeId; 4]; N]> = elements
             .par_iter()
             .enumerate()
