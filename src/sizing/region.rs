@@ -72,3 +72,16 @@ pub enum Shape {
         distance: f64,
     },
 }
+
+impl Shape {
+    /// The name of the kind of shape, the same as `kind` in JSON.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Box { .. } => "box",
+            Self::Sphere { .. } => "sphere",
+            Self::Cylinder { .. } => "cylinder",
+            Self::Points { .. } => "points",
+            Self::Surface { .. } => "surface",
+        }
+    }
+}
