@@ -175,7 +175,7 @@ impl<'a> Cursor<'a> {
             && let Ok((number, length)) = fast_float2::parse_partial::<f64, _>(text)
         {
             self.position += length;
-            if self.at_word_end() && number.is_finite() {
+            if length <= ENOUGH_DIGITS && self.at_word_end() && number.is_finite() {
                 return Ok(Some(number));
             }
         }
@@ -254,28 +254,65 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// Reads a number that the fast way refused: a Fortran exponent, or else says what is wrong with it.
+/// Digits that are enough to round a number correctly, if a digit that is not zero stands for all that
+/// follow: the halves between two doubles have 767 digits at most.
+const ENOUGH_DIGITS: usize = 800;
+
+/// Reads a number that the fast way refused: one with a Fortran exponent or of very many digits, or else
+/// says what is wrong with it.
 fn odd_number(word: &[u8]) -> std::result::Result<f64, (&'static str, &'static str)> {
-    const NOT_A_NUMBER: (&str, &str) =
-        ("obj-bad-number", "is not a number: write it like 12, -0.5 or 1.5e-3");
-    if word.iter().any(|b| !matches!(b, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E' | b'd' | b'D')) {
-        let lower: Vec<u8> = word.iter().take(4).map(u8::to_ascii_lowercase).collect();
-        let unsigned = lower.strip_prefix(b"-").or(lower.strip_prefix(b"+")).unwrap_or(&lower);
-        return Err(match unsigned {
-            [b'n', b'a', b'n', ..] | [b'i', b'n', b'f', ..] | [b'1', b'.', b'#', ..] => {
-                ("obj-not-finite", "is not a finite number: a node needs a place in space")
-            }
-            [b'0', b'x', ..] => ("obj-bad-number", "is hexadecimal: write it in decimal digits"),
-            _ if word.contains(&b',') => ("obj-bad-number", "has a comma: write a decimal point"),
-            _ => NOT_A_NUMBER,
-        });
-    }
-    let decimal: Vec<u8> = word.iter().map(|&b| if matches!(b, b'd' | b'D') { b'e' } else { b }).collect();
-    match fast_float2::parse::<f64, _>(&decimal) {
-        Ok(number) if number.is_finite() => Ok(number),
-        Ok(_) => {
+    match decimal(word).and_then(|text| fast_float2::parse::<f64, _>(&text).ok()) {
+        Some(number) if number.is_finite() => Ok(number),
+        Some(_) => {
             Err(("obj-number-too-large", "is beyond what a double holds (about 1.8e308): scale the model"))
         }
-        Err(_) => Err(NOT_A_NUMBER),
+        None => Err(what_is_wrong(word)),
+    }
+}
+
+/// `word` as sign, at most [`ENOUGH_DIGITS`] digits and an exponent, or `None` if it is no number.
+///
+/// The parser holds exponents at 65536, which is wrong for a word of more digits than that.
+fn decimal(word: &[u8]) -> Option<Vec<u8>> {
+    let is_marker = |b: &u8| matches!(b, b'e' | b'E' | b'd' | b'D');
+    let (mantissa, exponent) = match word.iter().position(is_marker) {
+        Some(at) => (&word[..at], whole_number(&word[at + 1..])?),
+        None => (word, 0),
+    };
+    let (sign, mantissa) = match mantissa {
+        [sign @ (b'+' | b'-'), rest @ ..] => (*sign, rest),
+        _ => (b'+', mantissa),
+    };
+    let mut parts = mantissa.splitn(2, |&b| b == b'.');
+    let (whole, fraction) = (parts.next()?, parts.next().unwrap_or_default());
+    let mut digits = whole.iter().chain(fraction).copied().peekable();
+    if digits.peek().is_none() || !digits.clone().all(|b| b.is_ascii_digit()) {
+        return None;
+    }
+    let zeros = digits.clone().take_while(|&b| b == b'0').count();
+    let mut text = vec![sign, b'0', b'.'];
+    text.extend(digits.by_ref().skip(zeros).take(ENOUGH_DIGITS));
+    text.push(if digits.any(|b| b != b'0') { b'1' } else { b'0' });
+    let point = whole.len() as i64 - zeros as i64;
+    text.extend_from_slice(format!("e{}", exponent.saturating_add(point)).as_bytes());
+    Some(text)
+}
+
+/// A whole number, held at the ends of `i64`.
+fn whole_number(text: &[u8]) -> Option<i64> {
+    let mut cursor = Cursor { bytes: text, position: 0, line: 0 };
+    cursor.digits().filter(|_| cursor.position == text.len())
+}
+
+/// Why `word` is no number: a code, and what to do.
+fn what_is_wrong(word: &[u8]) -> (&'static str, &'static str) {
+    let start: Vec<u8> = word.iter().take(4).map(u8::to_ascii_lowercase).collect();
+    match start.strip_prefix(b"-").or(start.strip_prefix(b"+")).unwrap_or(&start) {
+        [b'n', b'a', b'n', ..] | [b'i', b'n', b'f', ..] | [b'1', b'.', b'#', ..] => {
+            ("obj-not-finite", "is not a finite number: a node needs a place in space")
+        }
+        [b'0', b'x', ..] => ("obj-bad-number", "is hexadecimal: write it in decimal digits"),
+        _ if word.contains(&b',') => ("obj-bad-number", "has a comma: write a decimal point"),
+        _ => ("obj-bad-number", "is not a number: write it like 12, -0.5 or 1.5e-3"),
     }
 }

@@ -86,6 +86,31 @@ fn numbers_are_rounded_correctly() {
 }
 
 #[test]
+fn numbers_that_take_the_slow_way_are_rounded_correctly() {
+    let half_of_ulp = "1.00000000000000011102230246251565404236316680908203125";
+    for text in [
+        half_of_ulp.to_owned(),
+        format!("{half_of_ulp}{}1", "0".repeat(2000)),
+        format!("{half_of_ulp}{}", "0".repeat(2000)),
+    ] {
+        let expected: f64 = text.parse().unwrap();
+        assert_eq!(positions(&format!("v {text} -{text}d0 0"))[0], [expected, -expected, 0.0], "{text}");
+    }
+    for text in [
+        "000123.4500d-7",
+        ".5D1",
+        "5.D-1",
+        "-0d0",
+        "0.000d99999999999999999999",
+        "17d+12",
+        "2.2250738585072011d-308",
+    ] {
+        let expected: f64 = text.to_lowercase().replace('d', "e").parse().unwrap();
+        assert_eq!(positions(&format!("v {text} 0 0"))[0][0].to_bits(), expected.to_bits(), "{text}");
+    }
+}
+
+#[test]
 fn line_ends_of_every_system() {
     let lines = ["v 0 0 0", "v 1 0 0", "v 0 1 0", "", "f 1 2 3"];
     for end in ["\n", "\r\n", "\r"] {

@@ -1,3 +1,7 @@
 //! The OBJ reader and writer.
 
+mod bad;
 mod good;
+mod models;
+mod mutations;
+mod round_trip;
