@@ -1,0 +1,185 @@
+//! From the cells of a file, of mixed kinds and in any order, to one mesh.
+//!
+//! A file with hexahedra is a hex mesh, and its faces and lines (usually the boundary's) are left out;
+//! a file without is a surface, whose lines become [`Features::polylines`].
+
+use super::cell_kind::{CellKind, ONLY_THESE_CELLS};
+use super::refusal::{code, refuse};
+use super::tag_interner::CellTags;
+use super::{AnyMesh, Document, Format, ReadError};
+use crate::geometry::Point;
+use crate::mesh::{FaceId, Features, HexMesh, NodeId, PolygonMesh, Tags};
+
+/// The cells of a file, checked one by one.
+pub(super) struct CellCollector {
+    format: Format,
+    node_count: usize,
+    /// The number of the first node in the file: cells come with the file's numbers.
+    first_node: i64,
+    /// Number of cells so far, of any kind.
+    seen: u32,
+    offsets: Vec<u32>,
+    corners: Vec<NodeId>,
+    hexes: Vec<[NodeId; 8]>,
+    /// For each face and each hex, which cell of the file it is.
+    face_source: Vec<u32>,
+    hex_source: Vec<u32>,
+    features: Features,
+}
+
+/// What a file says of its cells: nothing, or one entry for each cell of any kind, in the file's order.
+#[derive(Default)]
+pub(super) struct CellAttributes {
+    /// The tags.
+    pub tags: Option<CellTags>,
+    /// Refinement levels.
+    pub level: Option<Vec<i64>>,
+    /// Cells of the input that the cells are part of.
+    pub parent: Option<Vec<i64>>,
+}
+
+impl CellCollector {
+    /// A collector of cells over `node_count` nodes, which the file numbers from `first_node`.
+    pub fn new(format: Format, node_count: usize, first_node: i64) -> Self {
+        Self {
+            format,
+            node_count,
+            first_node,
+            seen: 0,
+            offsets: vec![0],
+            corners: Vec::new(),
+            hexes: Vec::new(),
+            face_source: Vec::new(),
+            hex_source: Vec::new(),
+            features: Features::default(),
+        }
+    }
+
+    /// Adds a cell with nodes in the file's numbers. `line` is where it stands, for errors.
+    pub fn push(&mut self, kind: CellKind, nodes: &[i64], line: Option<u64>) -> Result<(), ReadError> {
+        let (least, most) = match kind {
+            CellKind::Skipped => (0, usize::MAX),
+            CellKind::Polyline => (2, usize::MAX),
+            CellKind::Triangle => (3, 3),
+            CellKind::Quad | CellKind::Pixel => (4, 4),
+            CellKind::Polygon => (3, usize::MAX),
+            CellKind::Hex | CellKind::Voxel => (8, 8),
+        };
+        if nodes.len() < least || nodes.len() > most {
+            let message =
+                format!("cell {} of kind {kind:?} has {} nodes; it needs {least}", self.seen, nodes.len());
+            return Err(refuse(self.format, line, code::CELL_SIZE, message));
+        }
+        match kind {
+            CellKind::Skipped => {}
+            CellKind::Polyline => {
+                let line = nodes.iter().map(|&n| self.node(n, line)).collect::<Result<_, _>>()?;
+                self.features.polylines.push(line);
+            }
+            CellKind::Triangle | CellKind::Quad | CellKind::Polygon => self.push_face(nodes, line)?,
+            CellKind::Pixel => self.push_face(&[0, 1, 3, 2].map(|i| nodes[i]), line)?,
+            CellKind::Hex => self.push_hex(nodes, line)?,
+            CellKind::Voxel => self.push_hex(&[0, 1, 3, 2, 4, 5, 7, 6].map(|i| nodes[i]), line)?,
+        }
+        self.seen = self.seen.checked_add(1).ok_or_else(|| self.too_large())?;
+        Ok(())
+    }
+
+    /// The error about a cell that is not read; `named` says what it is.
+    pub fn refuse_cell(&self, named: &str, line: Option<u64>) -> ReadError {
+        let message = format!("cell {} is a {named}; {ONLY_THESE_CELLS}", self.seen);
+        refuse(self.format, line, code::UNSUPPORTED_CELL, message)
+    }
+
+    /// Sharp edges and corners that the file gives to the surface.
+    pub fn features_mut(&mut self) -> &mut Features {
+        &mut self.features
+    }
+
+    fn push_face(&mut self, nodes: &[i64], line: Option<u64>) -> Result<(), ReadError> {
+        for &node in nodes {
+            let node = self.node(node, line)?;
+            self.corners.push(node);
+        }
+        self.offsets.push(u32::try_from(self.corners.len()).map_err(|_| self.too_large())?);
+        self.face_source.push(self.seen);
+        Ok(())
+    }
+
+    fn push_hex(&mut self, nodes: &[i64], line: Option<u64>) -> Result<(), ReadError> {
+        let mut hex = [NodeId(0); 8];
+        for (corner, &node) in hex.iter_mut().zip(nodes) {
+            *corner = self.node(node, line)?;
+        }
+        self.hexes.push(hex);
+        self.hex_source.push(self.seen);
+        Ok(())
+    }
+
+    fn node(&self, number: i64, line: Option<u64>) -> Result<NodeId, ReadError> {
+        let index = number.checked_sub(self.first_node).and_then(|n| u32::try_from(n).ok());
+        index.filter(|&n| (n as usize) < self.node_count).map(NodeId).ok_or_else(|| {
+            let last = self.first_node + self.node_count as i64 - 1;
+            let message = if self.node_count == 0 {
+                format!("cell {} names node {number}, but the file has no nodes", self.seen)
+            } else {
+                format!(
+                    "cell {} names node {number}, but the nodes are numbered {} to {last} — correct the number \
+                     or add the node",
+                    self.seen, self.first_node
+                )
+            };
+            refuse(self.format, line, code::NODE_OUT_OF_RANGE, message)
+        })
+    }
+
+    fn too_large(&self) -> ReadError {
+        let message = "the mesh has more than 2^32 cells or corners; split it";
+        refuse(self.format, None, code::TOO_LARGE, message)
+    }
+
+    /// The mesh over `positions`, with what the file says of its cells.
+    pub fn finish(
+        self,
+        positions: Vec<Point>,
+        attributes: CellAttributes,
+    ) -> Result<Document, ReadError> {
+        if let Some(node) = positions.iter().position(|p| !p.is_finite()) {
+            let message = format!(
+                "node {} has a coordinate that is NaN or infinite — correct it",
+                node as i64 + self.first_node
+            );
+            return Err(refuse(self.format, None, code::NOT_FINITE, message));
+        }
+        let hexes = !self.hexes.is_empty();
+        let source = if hexes { &self.hex_source } else { &self.face_source };
+        if source.is_empty() {
+            let message = "the file holds neither faces nor hexahedra — there is nothing to refine";
+            return Err(refuse(self.format, None, code::NO_CELLS, message));
+        }
+        let tags = attributes.tags.map(|tags| tags.of_cells(source)).unwrap_or_default();
+        let level = pick(attributes.level, source, |v| u8::try_from(v).ok());
+        let parent = pick(attributes.parent, source, |v| u32::try_from(v).ok().map(FaceId));
+        let mesh = if hexes {
+            AnyMesh::Hexes(HexMesh { positions, hexes: self.hexes, tags: Tags::default() })
+        } else {
+            AnyMesh::Polygons(PolygonMesh {
+                positions,
+                offsets: self.offsets,
+                corners: self.corners,
+                tags: Tags::default(),
+                features: self.features,
+            })
+        };
+        Ok(Document { mesh, tags, level, parent })
+    }
+}
+
+/// The entries of the cells in `source`; nothing if one does not fit: then another program's data
+/// happen to have the same name.
+fn pick<T>(column: Option<Vec<i64>>, source: &[u32], fit: fn(i64) -> Option<T>) -> Vec<T> {
+    let Some(column) = column else { return Vec::new() };
+    let fitted: Option<Vec<T>> =
+        source.iter().map(|&cell| column.get(cell as usize).and_then(|&v| fit(v))).collect();
+    fitted.unwrap_or_default()
+}

@@ -1,0 +1,92 @@
+//! What VTK's two file formats share: cells as connectivity, ends and types, and the cell data that
+//! carry levels, parents and tags.
+
+use std::collections::HashMap;
+
+use super::cell_collector::{CellAttributes, CellCollector};
+use super::cell_kind::CellKind;
+use super::cell_view::Cells;
+use super::refusal::{code, refuse};
+use super::scalars::Column;
+use super::tag_interner::CellTags;
+use super::{Format, ReadError};
+use crate::mesh::TagSet;
+
+/// Cell data array of refinement levels.
+pub(super) const LEVEL: &str = "Level";
+/// Cell data array of the input cells that cells are part of.
+pub(super) const PARENT: &str = "Parent";
+/// Cell data array of tags.
+pub(super) const TAG: &str = "Tag";
+
+/// Arrays that other programs keep the groups of cells in, by preference: ours, meshio's from Gmsh
+/// and from MEDIT files, Gmsh's, VTK's filters'.
+const TAG_ARRAYS: [&str; 5] = [TAG, "gmsh:physical", "medit:ref", "CellEntityIds", "MaterialIds"];
+
+/// VTK's type of a cell.
+pub(super) fn cell_type(cells: Cells<'_>, cell: usize) -> u8 {
+    match cells {
+        Cells::Hexes(_) => 12,
+        Cells::Quads(_) => 9,
+        Cells::Polygons(mesh) => match mesh.face(cell).len() {
+            3 => 5,
+            4 => 9,
+            _ => 7,
+        },
+    }
+}
+
+/// Hands the cells to `collector`: cell `i` has the type `types[i]` and the nodes that end at `ends[i]`
+/// in `connectivity`.
+pub(super) fn collect_cells(
+    collector: &mut CellCollector,
+    format: Format,
+    connectivity: &[i64],
+    ends: &[i64],
+    types: &[i64],
+) -> Result<(), ReadError> {
+    if ends.len() != types.len() {
+        let message = format!("there are {} cell types for {} cells", types.len(), ends.len());
+        return Err(refuse(format, None, code::INCONSISTENT, message));
+    }
+    let mut start = 0;
+    for (cell, (&end, &number)) in ends.iter().zip(types).enumerate() {
+        let nodes = usize::try_from(end).ok().and_then(|end| connectivity.get(start..end)).ok_or_else(|| {
+            let message = format!(
+                "cell {cell} has the nodes {start} to {end} of {} in the connectivity — its offset is wrong",
+                connectivity.len()
+            );
+            refuse(format, None, code::INCONSISTENT, message)
+        })?;
+        let kind = CellKind::from_vtk(number)
+            .map_err(|name| collector.refuse_cell(&format!("{name} (VTK type {number})"), None))?;
+        collector.push(kind, nodes, None)?;
+        start += nodes.len();
+    }
+    Ok(())
+}
+
+/// True if the cell data array `name` is one that is read.
+pub(super) fn is_wanted(name: &str) -> bool {
+    name == LEVEL || name == PARENT || TAG_ARRAYS.contains(&name)
+}
+
+/// The attributes of the cells from the arrays that [`is_wanted`]. Arrays of the wrong length or with
+/// numbers that are not whole are another program's, and left alone.
+pub(super) fn cell_attributes(
+    mut arrays: HashMap<String, Column>,
+    cell_count: usize,
+    named: &HashMap<i64, TagSet>,
+) -> CellAttributes {
+    let mut whole = |name: &str| {
+        arrays.remove(name).filter(|column| column.len() == cell_count).and_then(Column::into_integers)
+    };
+    CellAttributes {
+        level: whole(LEVEL),
+        parent: whole(PARENT),
+        tags: TAG_ARRAYS
+            .iter()
+            .find_map(|name| whole(name))
+            .map(|numbers| CellTags::from_numbers(&numbers, named)),
+    }
+}

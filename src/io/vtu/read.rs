@@ -1,0 +1,132 @@
+//! Reads VTU.
+
+use std::collections::HashMap;
+
+use super::TAG_NAMES;
+use super::array::Decoder;
+use super::xml::{DataArray, Piece, parse};
+use crate::geometry::Point;
+use crate::io::cell_collector::CellCollector;
+use crate::io::refusal::{code, refuse};
+use crate::io::scalars::Column;
+use crate::io::tag_numbers::names_from_json;
+use crate::io::vtk_cells::{cell_attributes, collect_cells, is_wanted};
+use crate::io::{Document, Format, ReadError};
+
+/// The mesh in a VTU file.
+pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
+    let file = parse(bytes)?;
+    let decoder = Decoder { bytes, file: &file };
+    let mut grid = Grid::default();
+    for piece in &file.pieces {
+        grid.add(&decoder, piece)?;
+    }
+    let mut named = HashMap::new();
+    if let Some(array) = file.field_data.iter().find(|array| array.name == TAG_NAMES)
+        && let Some(json) = decoder.decode(array)?.into_integers()
+    {
+        let json: Vec<u8> = json.into_iter().filter_map(|b| u8::try_from(b).ok()).collect();
+        named = names_from_json(&json);
+    }
+    let mut collector = CellCollector::new(Format::Vtu, grid.positions.len(), 0);
+    collect_cells(&mut collector, Format::Vtu, &grid.connectivity, &grid.ends, &grid.types)?;
+    let attributes = cell_attributes(grid.cell_data, grid.ends.len(), &named);
+    collector.finish(grid.positions, attributes)
+}
+
+/// The pieces so far, as one grid.
+#[derive(Default)]
+struct Grid {
+    positions: Vec<Point>,
+    connectivity: Vec<i64>,
+    ends: Vec<i64>,
+    types: Vec<i64>,
+    cell_data: HashMap<String, Column>,
+}
+
+impl Grid {
+    fn add(&mut self, decoder: &Decoder<'_>, piece: &Piece<'_>) -> Result<(), ReadError> {
+        let first_node = self.positions.len();
+        let first_corner = self.connectivity.len() as i64;
+        let first_cell = self.ends.len();
+        if let Some(points) = &piece.points {
+            self.add_points(decoder, points)?;
+        }
+        check_count(decoder, piece.node_count, self.positions.len() - first_node, "points")?;
+        if piece.cell_count == 0 {
+            return Ok(());
+        }
+        let find = |name: &str| {
+            let array = piece.cells.iter().find(|array| array.name == name);
+            array.ok_or_else(|| {
+                let message = format!("a piece has no array '{name}' in its Cells");
+                refuse(Format::Vtu, None, code::SYNTAX, message)
+            })
+        };
+        let nodes = decoder.integers(find("connectivity")?)?;
+        check_nodes(decoder, find("connectivity")?, &nodes, piece.node_count)?;
+        self.connectivity.extend(nodes.iter().map(|node| node + first_node as i64));
+        let ends = decoder.integers(find("offsets")?)?;
+        self.ends.extend(ends.iter().map(|end| end.saturating_add(first_corner)));
+        self.types.extend(decoder.integers(find("types")?)?);
+        check_count(decoder, piece.cell_count, self.ends.len() - first_cell, "cells")?;
+        for array in piece.cell_data.iter().filter(|array| is_wanted(&array.name) && array.components == 1) {
+            self.add_cell_data(decoder, array, first_cell)?;
+        }
+        Ok(())
+    }
+
+    fn add_points(&mut self, decoder: &Decoder<'_>, array: &DataArray<'_>) -> Result<(), ReadError> {
+        let values = decoder.decode(array)?.into_floats();
+        let size = array.components;
+        if !(2..=3).contains(&size) || !values.len().is_multiple_of(size) {
+            let message = &format!("has {} numbers in groups of {size}; points have 3", values.len());
+            return Err(decoder.refuse(array, code::INCONSISTENT, message));
+        }
+        let points = values.chunks_exact(size);
+        self.positions.extend(points.map(|p| Point::new(p[0], p[1], p.get(2).copied().unwrap_or(0.0))));
+        Ok(())
+    }
+
+    /// Adds cell data. An array that an earlier piece did not have is dropped by its wrong length.
+    fn add_cell_data(
+        &mut self,
+        decoder: &Decoder<'_>,
+        array: &DataArray<'_>,
+        first_cell: usize,
+    ) -> Result<(), ReadError> {
+        let column = decoder.decode(array)?;
+        match self.cell_data.get_mut(&array.name) {
+            None if first_cell == 0 => drop(self.cell_data.insert(array.name.clone(), column)),
+            None => {}
+            Some(Column::Integers(values)) => values.extend(column.into_integers().unwrap_or_default()),
+            Some(Column::Floats(values)) => values.extend(column.into_floats()),
+        }
+        Ok(())
+    }
+}
+
+fn check_count(decoder: &Decoder<'_>, said: u64, found: usize, what: &str) -> Result<(), ReadError> {
+    if said == found as u64 {
+        return Ok(());
+    }
+    let last = decoder.file.pieces.len();
+    let message = format!("a piece (of {last}) says it has {said} {what}, but its arrays hold {found}");
+    Err(refuse(Format::Vtu, None, code::INCONSISTENT, message))
+}
+
+/// A node of another piece must not pass for one of this.
+fn check_nodes(
+    decoder: &Decoder<'_>,
+    array: &DataArray<'_>,
+    nodes: &[i64],
+    count: u64,
+) -> Result<(), ReadError> {
+    match nodes.iter().find(|&&node| u64::try_from(node).map_or(true, |node| node >= count)) {
+        None => Ok(()),
+        Some(node) => {
+            let message = &format!("names node {node}, but the nodes are numbered 0 to {}", count as i64 - 1);
+            Err(decoder.refuse(array, code::NODE_OUT_OF_RANGE, message))
+        }
+    }
+}
