@@ -1,7 +1,8 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
 
-const hexmill = fileURLToPath(new URL('./www/lib/node.ts', import.meta.url));
+// Tests of the library run what is published.
+const hexmill = fileURLToPath(new URL('./dist/lib/node.js', import.meta.url));
 
 // Three suites that `npm test` runs one after the other: they need more and more to be built.
 export default defineConfig({

@@ -59,8 +59,11 @@ const FLAVOURS = [
   { name: 'viewer', features: 'viewer', profile: 'viewer' },
 ];
 
-/** Builds the named flavours (all by default), two at a time, and resolves to a line about each. */
-export async function buildWasm(names = FLAVOURS.map((flavour) => flavour.name)) {
+/**
+ * Builds the named flavours (all by default), two at a time, and resolves to a line about each. `run` are options
+ * of `execute`, such as a log.
+ */
+export async function buildWasm(names = FLAVOURS.map((flavour) => flavour.name), run = {}) {
   const unknown = names.filter((name) => !FLAVOURS.some((flavour) => flavour.name === name));
   if (unknown.length > 0) {
     throw new Failure(`No such flavour: ${unknown.join(', ')}. There are ${FLAVOURS.map((f) => f.name).join(', ')}.`);
@@ -69,15 +72,15 @@ export async function buildWasm(names = FLAVOURS.map((flavour) => flavour.name))
   const waiting = FLAVOURS.filter((flavour) => names.includes(flavour.name));
   const lines = [];
   const work = async () => {
-    for (let flavour = waiting.shift(); flavour; flavour = waiting.shift()) lines.push(await buildFlavour(flavour));
+    for (let flavour = waiting.shift(); flavour; flavour = waiting.shift()) lines.push(await buildFlavour(flavour, run));
   };
   // Linking with full LTO keeps one core busy for most of a build.
   await Promise.all([work(), work()]);
   return lines.sort();
 }
 
-async function buildFlavour(flavour) {
-  const compiled = await compile(flavour);
+async function buildFlavour(flavour, run) {
+  const compiled = await compile(flavour, run);
   const folder = join(OUT, flavour.name);
   const stamp = join(folder, '.stamp');
   const recipe = [compiled, JSON.stringify(flavour), output('wasm-bindgen', ['--version'])];
@@ -85,7 +88,7 @@ async function buildFlavour(flavour) {
   if (!existsSync(stamp) || readFileSync(stamp, 'utf8') !== hash) {
     rmSync(folder, { recursive: true, force: true });
     mkdirSync(folder, { recursive: true });
-    await bind(flavour, folder);
+    await bind(flavour, folder, run);
     writeFileSync(stamp, hash);
   }
   const wasm = readFileSync(join(folder, `${flavour.name}.wasm`));
@@ -94,11 +97,11 @@ async function buildFlavour(flavour) {
 }
 
 /** What cargo makes of the flavour: the bytes of the module. A target folder each, so that flags never clash. */
-async function compile({ name, features, profile = 'release', cargo = [], env = {} }) {
+async function compile({ name, features, profile = 'release', cargo = [], env = {} }, run) {
   const targetFolder = targetFolderOf(name);
   const args = ['rustc', '--lib', '--crate-type', 'cdylib', '--target', TARGET, '--profile', profile];
   const selection = ['--no-default-features', '--features', features, '--target-dir', targetFolder];
-  await must('cargo', [...args, ...selection, ...cargo], { env });
+  await must('cargo', [...args, ...selection, ...cargo], { ...run, env });
   return readFileSync(compiledPath(name, profile));
 }
 
@@ -111,15 +114,16 @@ function compiledPath(name, profile) {
 }
 
 /** Makes the JavaScript side with wasm-bindgen and optimizes the module with Binaryen. */
-async function bind({ name, profile = 'release', optimize }, folder) {
+async function bind({ name, profile = 'release', optimize }, folder, run) {
   // Without a default path bundlers do not look for the module beside the JavaScript: callers name it.
   const how = ['--target', 'web', '--omit-default-module-path', '--out-dir', folder, '--out-name', name];
-  await must('wasm-bindgen', [compiledPath(name, profile), ...how]);
+  await must('wasm-bindgen', [compiledPath(name, profile), ...how], run);
+  rmSync(join(folder, `${name}_bg.wasm.d.ts`));
   const bound = join(folder, `${name}_bg.wasm`);
   const wasm = join(folder, `${name}.wasm`);
   if (optimize) {
     const binaryen = join(root, 'node_modules', '.bin', 'wasm-opt');
-    await must(binaryen, [bound, '-o', wasm, ...BINARYEN_FEATURES, ...optimize]);
+    await must(binaryen, [bound, '-o', wasm, ...BINARYEN_FEATURES, ...optimize], run);
     rmSync(bound);
   } else {
     renameSync(bound, wasm);

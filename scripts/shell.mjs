@@ -67,8 +67,7 @@ export function execute(program, args, { env = {}, cwd = root, log = null } = {}
 export async function must(program, args, options = {}) {
   const { code, text } = await execute(program, args, options);
   if (code !== 0) {
-    const tail = text ? `\n${text.split('\n').slice(-60).join('\n')}` : '';
-    throw new Failure(`failed (exit code ${code}): ${program} ${args.join(' ')}${tail}`);
+    throw new Failure(`failed (exit code ${code}): ${program} ${args.join(' ')}`);
   }
   return text;
 }

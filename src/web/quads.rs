@@ -1,14 +1,19 @@
 //! Refinement in one call, and the quad mesh that it makes.
 
-use js_sys::{Float64Array, Uint8Array, Uint32Array};
+use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
+use serde::Serialize;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use super::errors::Failure;
 use super::listener::Listener;
 use super::pool::on_pool;
-use super::surface::Surface;
+use super::surface::{Surface, check_ids, format_named, points};
 use crate::geometry::Point;
-use crate::mesh::{FaceId, NodeId};
+use crate::io::{self, Document};
+use crate::mesh::check::{check_quads, summary};
+
+use crate::mesh::quality::quad_quality;
+use crate::mesh::{FaceId, NodeId, QuadMesh, mesh_hash};
 use crate::refine::{QuadOptions, RefinedQuads, estimate_quads, refine_quads};
 
 /// A refined mesh on its way to JavaScript.
@@ -43,6 +48,28 @@ impl Quads {
     pub fn capped(&self) -> usize {
         self.refined.capped
     }
+
+    /// The fingerprint of nodes and quads.
+    pub fn hash(&self) -> String {
+        let mesh = &self.refined.mesh;
+        on_pool(|| mesh_hash(&mesh.positions, &mesh.quads)).to_string()
+    }
+
+    /// How well shaped the quads are: an object with the fields of `MeshQuality` in `www/lib/results.ts`.
+    ///
+    /// # Errors
+    /// None in practice: numbers can always be converted.
+    pub fn quality(&self) -> Result<JsValue, Failure> {
+        let report = on_pool(|| quad_quality(&self.refined.mesh).report());
+        let serializer = serde_wasm_bindgen::Serializer::new().serialize_maps_as_objects(true);
+        Ok(report.serialize(&serializer)?)
+    }
+
+    /// What is wrong with the mesh: one line for each kind of defect.
+    pub fn defects(&self) -> Vec<String> {
+        let defects = on_pool(|| check_quads(&self.refined.mesh));
+        summary(&defects).iter().map(ToString::to_string).collect()
+    }
 }
 
 impl From<RefinedQuads> for Quads {
@@ -70,4 +97,67 @@ pub fn estimate(surface: &Surface, options: JsValue) -> Result<JsValue, Failure>
     let options: QuadOptions = serde_wasm_bindgen::from_value(options)?;
     let estimate = on_pool(|| estimate_quads(&surface.mesh, &options))?;
     Ok(serde_wasm_bindgen::to_value(&estimate)?)
+}
+
+/// A refined mesh, given back as arrays, as the bytes of a file. `surface`, which it was made from, tells the tags.
+///
+/// # Errors
+/// If the arrays do not fit together, there is no such format, or it is not written.
+#[wasm_bindgen(js_name = exportQuads)]
+pub fn export(
+    surface: &Surface,
+    nodes: &[f64],
+    quads: &[u32],
+    level: Vec<u8>,
+    parent: &[u32],
+    format: &str,
+) -> Result<Uint8Array, Failure> {
+    let format = format_named(format)?;
+    let mesh = quad_mesh(nodes, quads)?;
+    check_parents(parent, mesh.quads.len(), surface.mesh.face_count())?;
+    let tags = surface.mesh.tags.inherited(parent);
+    let parent = parent.iter().copied().map(FaceId).collect();
+    let document = Document { tags, level, parent, ..Document::from(mesh) };
+    Ok(on_pool(|| io::write(&document, format))?.as_slice().into())
+}
+
+/// A measure of each quad, by its name in `MeshQuality`.
+///
+/// # Errors
+/// If the arrays do not fit together or there is no such measure.
+#[wasm_bindgen(js_name = quadQuality)]
+pub fn quality(nodes: &[f64], quads: &[u32], metric: &str) -> Result<Float32Array, Failure> {
+    let mesh = quad_mesh(nodes, quads)?;
+    let quality = on_pool(|| quad_quality(&mesh));
+    let values = match metric {
+        "scaledJacobian" => quality.scaled_jacobian,
+        "minAngle" => quality.min_angle,
+        "maxAngle" => quality.max_angle,
+        "aspect" => quality.aspect,
+        _ => {
+            let message =
+                format!("there is no measure {metric:?}; give scaledJacobian, minAngle, maxAngle or aspect");
+            return Err(Failure::options("metric-unknown", &message));
+        }
+    };
+    Ok(values.as_slice().into())
+}
+
+fn quad_mesh(nodes: &[f64], quads: &[u32]) -> Result<QuadMesh, Failure> {
+    let positions = points(nodes)?;
+    check_ids(quads, positions.len())?;
+    let quads = bytemuck::try_cast_slice::<u32, [NodeId; 4]>(quads).map_err(|_| {
+        let message = format!("the array of quads has {} numbers, not four for each quad", quads.len());
+        Failure::input("array-length", &message)
+    })?;
+    Ok(QuadMesh { positions, quads: quads.to_vec() })
+}
+
+fn check_parents(parent: &[u32], quads: usize, faces: usize) -> Result<(), Failure> {
+    if parent.len() == quads && parent.iter().all(|&p| (p as usize) < faces) {
+        return Ok(());
+    }
+    let message =
+        format!("parent has to name one of the {faces} faces of the surface for each of {quads} quads");
+    Err(Failure::input("array-parent", &message))
 }

@@ -3,11 +3,16 @@
 use std::sync::Arc;
 
 use js_sys::{Float64Array, Uint32Array};
-use wasm_bindgen::prelude::wasm_bindgen;
+use serde::Serialize;
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use super::errors::Failure;
-use crate::geometry::Point;
-use crate::mesh::{NodeId, PolygonMesh};
+use super::pool::on_pool;
+use crate::geometry::{Aabb, Point};
+use crate::io;
+use crate::mesh::check::{check_polygons, summary};
+use crate::mesh::topology::{SurfaceReport, surface_report};
+use crate::mesh::{Edges, NodeId, PolygonMesh};
 
 /// A polygon surface in this module's memory.
 #[wasm_bindgen]
@@ -15,8 +20,45 @@ pub struct Surface {
     pub(super) mesh: Arc<PolygonMesh>,
 }
 
+/// What JavaScript shows of a surface.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Info {
+    #[serde(flatten)]
+    report: SurfaceReport,
+    triangles: usize,
+    quads: usize,
+    /// Faces of five nodes and more.
+    polygons: usize,
+    bounds: Bounds,
+    longest_edge: f64,
+    mean_edge: f64,
+    /// One line for each kind of defect.
+    defects: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Bounds {
+    min: Point,
+    max: Point,
+}
+
 #[wasm_bindgen]
 impl Surface {
+    /// The surface in a file of the named format.
+    ///
+    /// # Errors
+    /// What the format's reader refuses, unknown formats, and files of hexahedra.
+    pub fn read(bytes: &[u8], format: &str) -> Result<Self, Failure> {
+        let format = format_named(format)?;
+        let document = on_pool(|| io::read(bytes, format))?;
+        let mesh = document.into_surface().ok_or_else(|| {
+            let message = "the file holds hexahedra; give a surface of polygons";
+            Failure::input("surface-expected", &message)
+        })?;
+        Ok(Self { mesh: Arc::new(mesh) })
+    }
+
     /// A surface of faces given as arrays: x, y, z of each node; where each face's corners start, and the end of
     /// the last; the nodes of all faces. Without `offsets` all faces are quads.
     ///
@@ -26,11 +68,29 @@ impl Surface {
     pub fn from_arrays(nodes: &[f64], offsets: Option<Vec<u32>>, corners: &[u32]) -> Result<Self, Failure> {
         let positions = points(nodes)?;
         check_ids(corners, positions.len())?;
-        let offsets = offsets.unwrap_or_else(|| (0..=corners.len() as u32).step_by(4).collect());
+        let offsets = match offsets {
+            Some(offsets) => offsets,
+            None if corners.len().is_multiple_of(4) => (0..=corners.len() as u32).step_by(4).collect(),
+            None => {
+                let message = format!("{} corners are no quads; give offsets for other faces", corners.len());
+                return Err(Failure::input("array-length", &message));
+            }
+        };
         check_offsets(&offsets, corners.len())?;
         let corners = corners.iter().copied().map(NodeId).collect();
         let mesh = PolygonMesh { positions, offsets, corners, ..PolygonMesh::default() };
         Ok(Self { mesh: Arc::new(mesh) })
+    }
+
+    /// What is known of the surface: an object with the fields of `SurfaceInfo` in `www/lib/results.ts`.
+    ///
+    /// # Errors
+    /// None in practice: numbers and words can always be converted.
+    pub fn info(&self) -> Result<JsValue, Failure> {
+        let info = on_pool(|| Info::of(&self.mesh));
+        // Flattened fields would become a Map.
+        let serializer = serde_wasm_bindgen::Serializer::new().serialize_maps_as_objects(true);
+        Ok(info.serialize(&serializer)?)
     }
 
     /// x, y, z of each node.
@@ -47,6 +107,35 @@ impl Surface {
     pub fn corners(&self) -> Uint32Array {
         bytemuck::cast_slice::<NodeId, u32>(&self.mesh.corners).into()
     }
+}
+
+impl Info {
+    fn of(mesh: &PolygonMesh) -> Self {
+        let edges = Edges::of_polygons(mesh);
+        let length = |&[a, b]: &[NodeId; 2]| mesh.positions[a.index()].distance(mesh.positions[b.index()]);
+        let lengths: Vec<f64> = edges.ends.iter().map(length).collect();
+        let faces_of = |wanted: fn(usize) -> bool| mesh.faces().filter(|f| wanted(f.len())).count();
+        let Aabb { min, max } = mesh.bounds();
+        Self {
+            report: surface_report(mesh, &edges),
+            triangles: faces_of(|n| n == 3),
+            quads: faces_of(|n| n == 4),
+            polygons: faces_of(|n| n > 4),
+            bounds: Bounds { min, max },
+            longest_edge: lengths.iter().copied().fold(0.0, f64::max),
+            mean_edge: lengths.iter().sum::<f64>() / lengths.len().max(1) as f64,
+            defects: summary(&check_polygons(mesh)).iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+/// The format of a name that JavaScript gave.
+pub(super) fn format_named(name: &str) -> Result<io::Format, Failure> {
+    io::Format::from_extension(name).ok_or_else(|| {
+        let known: Vec<_> = io::Format::ALL.iter().map(|f| f.name()).collect();
+        let message = format!("there is no format {name:?}; the formats are {}", known.join(", "));
+        Failure::options("format-unknown", &message)
+    })
 }
 
 /// The nodes of an array of x, y, z.

@@ -3,6 +3,7 @@
 
 mod cli;
 mod formats;
+mod hashes;
 mod obj;
 mod refine;
 mod scene;

@@ -11,7 +11,7 @@ export class HexmillError extends Error {
   /** A stable name of what is wrong, such as `obj-index-out-of-range`; messages may change, codes do not. */
   readonly code: string;
   /** The line of the input file that is at fault, from 1, where there is one. */
-  readonly line?: number;
+  declare readonly line?: number;
 
   constructor(code: string, message: string, line?: number) {
     super(message);

@@ -105,10 +105,10 @@ export class Mesher {
     options: QuadOptions & InputOptions & CallOptions = {},
   ): Promise<Estimate> {
     const { signal, onProgress, format, name, ...quadOptions } = options;
+    const plain = plainOptions(quadOptions);
     const record = await this.#record(input, { format, name, signal });
     return this.#engine.run(
-      async (desk) =>
-        desk.call('estimate', { surface: await desk.surface(record), options: plainOptions(quadOptions) }),
+      async (desk) => desk.call('estimate', { surface: await desk.surface(record), options: plain }),
       { signal, onProgress },
     );
   }
@@ -121,8 +121,8 @@ export class Mesher {
    */
   async refineQuads(input: Surface | SurfaceInput, options: RefineOptions & InputOptions = {}): Promise<QuadMesh> {
     const { signal, onProgress, sizeFunction, format, name, ...quadOptions } = options;
-    const record = await this.#record(input, { format, name, signal });
     const plain = plainOptions(quadOptions);
+    const record = await this.#record(input, { format, name, signal });
     const data = await this.#engine.run(
       async (desk) => {
         const surface = await desk.surface(record);

@@ -1,3 +1,5 @@
+import { OptionsError } from './errors.js';
+
 /** A point or a direction: x, y, z in model units. */
 export type Vector = readonly [number, number, number];
 
@@ -122,7 +124,28 @@ export function inputFormat({ format, name }: InputOptions): InputFormat {
   return EXTENSIONS[extension] ?? 'obj';
 }
 
-/** `options` as the mesher takes them: plain data, without entries that are undefined. */
+/** Every quad option by name: the compiler holds this to be complete. */
+const QUAD_OPTIONS: Readonly<Record<keyof QuadOptions, true>> = {
+  edgeLength: true,
+  levels: true,
+  regions: true,
+  curvature: true,
+  gradation: true,
+  keepCoarse: true,
+  maxLevels: true,
+  maxQuads: true,
+};
+
+/**
+ * `options` as the mesher takes them: plain data, without entries that are undefined.
+ *
+ * @throws {@link OptionsError} if one is unknown, as misspelt ones are.
+ */
 export function plainOptions(options: QuadOptions): QuadOptions {
+  const unknown = Object.keys(options).find((name) => !Object.hasOwn(QUAD_OPTIONS, name));
+  if (unknown !== undefined) {
+    const known = Object.keys(QUAD_OPTIONS).join(', ');
+    throw new OptionsError('option-unknown', `There is no option ${unknown}; there are ${known}.`);
+  }
   return Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined));
 }

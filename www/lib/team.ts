@@ -140,7 +140,9 @@ export class Team {
         if (this.#missing === 0) this.#starting?.resolve();
         return;
       case 'progress':
-        if (message.id === this.#pending?.id) this.#pending.onProgress?.(message);
+        if (message.id === this.#pending?.id) {
+          this.#pending.onProgress?.({ stage: message.stage, fraction: message.fraction });
+        }
         return;
       case 'done':
         return this.#settle(message.id)?.resolve(message.result);

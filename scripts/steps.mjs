@@ -1,0 +1,111 @@
+// The steps of `npm test`, in order. Each does its work and resolves to the counts of its tests.
+
+import { existsSync, readFileSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { findChromedriver } from './browser.mjs';
+import { build } from './build.mjs';
+import { Failure, execute, must, root, which } from './shell.mjs';
+
+const WASM = ['--target', 'wasm32-unknown-unknown', '--no-default-features'];
+const DENY = ['--', '-D', 'warnings'];
+
+/**
+ * A step: its name, the steps whose products it needs, and `run({ log, say })`, which logs to the file `log`,
+ * resolves to `{ passed, failed }`, and may throw a `Failure`.
+ */
+export const STEPS = [
+  { name: 'fmt', run: one((options) => must('cargo', ['fmt', '--check'], options)) },
+  {
+    name: 'clippy',
+    run: one((options) => must('cargo', ['clippy', '--all-targets', ...DENY], options)),
+  },
+  { name: 'clippy-wasm', run: one(clippyWasm) },
+  { name: 'doc', run: one(documentation) },
+  { name: 'native', run: native },
+  { name: 'doctest', run: (context) => counted('cargo', ['test', '--doc'], context) },
+  { name: 'wasm', run: wasm },
+  { name: 'build', run: one(published) },
+  { name: 'types', needs: ['build'], run: one(types) },
+  { name: 'unit', needs: ['build'], run: (context) => vitest('unit', context) },
+  { name: 'package', needs: ['build'], run: (context) => vitest('package', context) },
+  { name: 'e2e', needs: ['build'], run: (context) => vitest('e2e', context) },
+];
+
+/** A step without tests of its own counts as one. */
+function one(work) {
+  return async (context) => {
+    await work({ log: context.log }, context);
+    return { passed: 1, failed: 0 };
+  };
+}
+
+async function clippyWasm(options) {
+  for (const features of ['mesher', 'threads', 'viewer']) {
+    await must('cargo', ['clippy', '--lib', ...WASM, '--features', features, ...DENY], options);
+  }
+  await must('cargo', ['clippy', '--test', 'wasm', ...WASM, ...DENY], options);
+}
+
+async function documentation(options) {
+  const strict = { ...options, env: { RUSTDOCFLAGS: '-D warnings' } };
+  await must('cargo', ['doc', '--no-deps', '--lib'], strict);
+  await must('cargo', ['doc', '--no-deps', '--lib', ...WASM, '--features', 'threads,viewer'], strict);
+}
+
+/** Unit and integration tests, by nextest where it is installed. */
+function native(context) {
+  const runner = which('cargo-nextest') ? ['nextest', 'run', '--no-fail-fast'] : ['test', '--no-fail-fast'];
+  return counted('cargo', [...runner, '--lib', '--bins', '--tests'], context);
+}
+
+/** The core in headless Chromium. */
+function wasm(context) {
+  const env = { CHROMEDRIVER: findChromedriver(), WASM_BINDGEN_TEST_TIMEOUT: '300' };
+  return counted('cargo', ['test', '--test', 'wasm', ...WASM], context, env);
+}
+
+async function published(options, { say }) {
+  for (const line of await build(options)) say(line);
+}
+
+async function types(options) {
+  for (const project of ['tsconfig.json', 'tsconfig.node.json']) {
+    await must('node', ['node_modules/typescript/bin/tsc', '--noEmit', '-p', project], options);
+  }
+}
+
+async function vitest(project, { log }) {
+  const report = join(root, 'target', 'test-logs', `${project}.json`);
+  rmSync(report, { force: true });
+  const reporters = ['--reporter=verbose', '--reporter=json', `--outputFile.json=${report}`];
+  const args = ['node_modules/vitest/vitest.mjs', 'run', '--project', project, '--passWithNoTests', ...reporters];
+  const { code } = await execute('node', args, { log });
+  if (!existsSync(report)) {
+    if (code === 0) return { passed: 0, failed: 0 };
+    throw new Failure('vitest failed before it could run a test');
+  }
+  const { numPassedTests, numFailedTests, success } = JSON.parse(readFileSync(report, 'utf8'));
+  return settle(numPassedTests, numFailedTests, code === 0 && success);
+}
+
+/** Runs tests and adds up the counts in what they print. */
+async function counted(program, args, { log }, env = {}) {
+  const { code, text } = await execute(program, args, { log, env });
+  let passed = 0;
+  let failed = 0;
+  for (const [, yes, no] of text.matchAll(/test result: \w+\. (\d+) passed; (\d+) failed/g)) {
+    passed += Number(yes);
+    failed += Number(no);
+  }
+  for (const [, summary] of text.matchAll(/Summary \[.*?\] (.*)/g)) {
+    passed += Number(summary.match(/(\d+) passed/)?.[1] ?? 0);
+    for (const [, no] of summary.matchAll(/(\d+) (?:failed|timed out)/g)) failed += Number(no);
+  }
+  return settle(passed, failed, code === 0);
+}
+
+/** A run that went wrong without a failed test counts as one failure. */
+function settle(passed, failed, well) {
+  return { passed, failed: well || failed > 0 ? failed : 1 };
+}
