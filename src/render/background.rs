@@ -18,6 +18,7 @@ impl Background {
             shader: shader!("background.wgsl"),
             groups: &[frame],
             buffers: &[],
+            constants: &[],
             topology: PrimitiveTopology::TriangleList,
             cull: None,
             blend: None,

@@ -78,6 +78,7 @@ impl MeshPipeline {
                 step_mode: wgpu::VertexStepMode::Vertex,
                 attributes: &wgpu::vertex_attr_array![0 => Uint32],
             }],
+            constants: &[],
             topology: PrimitiveTopology::TriangleList,
             cull: None,
             blend: None,

@@ -7,10 +7,14 @@
 
 mod background;
 mod data_texture;
+mod discs;
 mod gpu;
+mod lines;
 mod mesh;
 mod pipeline;
 mod renderer;
+mod solids;
+mod stream;
 
 pub use gpu::GpuError;
 pub use renderer::Renderer;

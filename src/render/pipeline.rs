@@ -17,6 +17,8 @@ pub struct Recipe<'a> {
     pub groups: &'a [&'a BindGroupLayout],
     /// Vertex buffers in order.
     pub buffers: &'a [VertexBufferLayout<'a>],
+    /// Values of the shader's overrides.
+    pub constants: &'a [(&'a str, f64)],
     /// How vertices make triangles.
     pub topology: PrimitiveTopology,
     /// The side that is not drawn.
@@ -40,6 +42,7 @@ impl Recipe<'_> {
             bind_group_layouts: &groups,
             immediate_size: 0,
         });
+        let options = || wgpu::PipelineCompilationOptions { constants: self.constants, ..Default::default() };
         let buffers: Vec<_> = self.buffers.iter().cloned().map(Some).collect();
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
@@ -47,7 +50,7 @@ impl Recipe<'_> {
             vertex: wgpu::VertexState {
                 module: &module,
                 entry_point: Some("vertex"),
-                compilation_options: Default::default(),
+                compilation_options: options(),
                 buffers: &buffers,
             },
             primitive: wgpu::PrimitiveState {
@@ -66,7 +69,7 @@ impl Recipe<'_> {
             fragment: Some(wgpu::FragmentState {
                 module: &module,
                 entry_point: Some("fragment"),
-                compilation_options: Default::default(),
+                compilation_options: options(),
                 targets: &[Some(wgpu::ColorTargetState {
                     format,
                     blend: self.blend,

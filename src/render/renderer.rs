@@ -6,11 +6,14 @@ use wgpu::{BindGroup, Buffer, BufferUsages, Color, LoadOp, Operations, RenderPas
 
 use super::{
     background::Background,
+    discs::Discs,
     gpu::{Gpu, GpuError, Target},
+    lines::{Lines, Place},
     mesh::{MeshDrawable, MeshPipeline},
     pipeline::uniform,
+    solids::Solids,
 };
-use crate::scene::{Palette, Rgba, Scene, Surface};
+use crate::scene::{Palette, Placement, Rgba, Scene, Solid, Surface};
 
 /// Draws a scene on a canvas.
 pub struct Renderer {
@@ -20,6 +23,12 @@ pub struct Renderer {
     background: Background,
     mesh_pipeline: MeshPipeline,
     mesh: Option<MeshDrawable>,
+    solids: Solids,
+    outlines: Lines,
+    front_lines: Lines,
+    discs: Discs,
+    /// The regions' buffers are out of date.
+    regions_changed: bool,
 }
 
 /// `Frame` of frame.wgsl.
@@ -35,7 +44,20 @@ struct FrameUniform {
     front: Vec4,
     back: Vec4,
     edge: Vec4,
+    counts: [u32; 4],
+    regions: [RegionUniform; REGIONS],
 }
+
+/// `Region` of frame.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct RegionUniform {
+    unit_from_scene: [[f32; 4]; 4],
+    colour_solid: Vec4,
+}
+
+/// Regions whose crossing with the surface is marked; those beyond are only drawn as solids.
+const REGIONS: usize = 16;
 
 impl Renderer {
     /// A renderer on a canvas.
@@ -63,7 +85,23 @@ impl Renderer {
         });
         let background = Background::new(&gpu, &layout);
         let mesh_pipeline = MeshPipeline::new(&gpu, &layout);
-        Self { gpu, frame, frame_group, background, mesh_pipeline, mesh: None }
+        let solids = Solids::new(&gpu, &layout);
+        let outlines = Lines::new(&gpu, &layout, Place::InScene);
+        let front_lines = Lines::new(&gpu, &layout, Place::OnTop);
+        let discs = Discs::new(&gpu, &layout);
+        Self {
+            gpu,
+            frame,
+            frame_group,
+            background,
+            mesh_pipeline,
+            mesh: None,
+            solids,
+            outlines,
+            front_lines,
+            discs,
+            regions_changed: true,
+        }
     }
 
     /// Fits the canvas, in device pixels.
@@ -86,6 +124,11 @@ impl Renderer {
         }
     }
 
+    /// Tells that the scene's regions, their place or their colours have changed.
+    pub fn regions_changed(&mut self) {
+        self.regions_changed = true;
+    }
+
     /// Bytes of the surface on the device, and draw calls a frame.
     pub fn mesh_cost(&self) -> (usize, usize) {
         self.mesh.as_ref().map_or((0, 0), |m| (m.bytes(), m.draw_calls()))
@@ -96,6 +139,14 @@ impl Renderer {
         if let Some(mesh) = &mut self.mesh {
             mesh.set_edges(&self.gpu, scene.style.edges);
         }
+        if std::mem::take(&mut self.regions_changed) {
+            let regions = scene.region_buffers();
+            self.solids.set(&self.gpu, &regions.solids);
+            self.outlines.set(&self.gpu, &regions.outlines);
+        }
+        let front = scene.front_buffers();
+        self.front_lines.set(&self.gpu, &front.lines);
+        self.discs.set(&self.gpu, &front.discs);
         let uniform = self.frame_uniform(scene);
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         self.gpu.frame(|device, queue, target| {
@@ -111,12 +162,28 @@ impl Renderer {
         if let Some(mesh) = &self.mesh {
             self.mesh_pipeline.draw(pass, mesh);
         }
+        self.solids.draw(pass);
+        self.outlines.draw(pass);
+        self.front_lines.draw(pass);
+        self.discs.draw(pass);
     }
 
     fn frame_uniform(&self, scene: &Scene) -> FrameUniform {
         let theme = scene.style.background.theme();
         let [width, height] = self.gpu.size().map(|p| p as f32);
         let pixels = width / scene.viewport.width as f32;
+        let mut regions = [RegionUniform::zeroed(); REGIONS];
+        let mut count = 0;
+        for (slot, (i, placement)) in regions.iter_mut().zip(drawn(scene)) {
+            let is_selected = scene.selected() == Some(i);
+            let colour = if is_selected { theme.selected } else { theme.region };
+            let unit_from_scene = placement.unit_from_world() * scene.frame().world_from_scene();
+            *slot = RegionUniform {
+                unit_from_scene: unit_from_scene.as_mat4().to_cols_array_2d(),
+                colour_solid: float(colour).with_w(solid_number(placement.solid)),
+            };
+            count += 1;
+        }
         FrameUniform {
             clip_from_scene: scene.clip_from_scene().to_cols_array_2d(),
             view_from_scene: scene.view_from_scene().to_cols_array_2d(),
@@ -127,7 +194,23 @@ impl Renderer {
             front: float(theme.front),
             back: float(theme.back),
             edge: float(theme.edge),
+            counts: [count, 0, 0, 0],
+            regions,
         }
+    }
+}
+
+/// The regions that can be drawn, with their indices.
+fn drawn(scene: &Scene) -> impl Iterator<Item = (usize, &Placement)> {
+    scene.placements().iter().enumerate().filter_map(|(i, p)| Some((i, p.as_ref()?)))
+}
+
+/// The number of a solid in frame.wgsl.
+fn solid_number(solid: Solid) -> f32 {
+    match solid {
+        Solid::Cube => 0.0,
+        Solid::Ball => 1.0,
+        Solid::Cylinder => 2.0,
     }
 }
 

@@ -4,8 +4,14 @@ use std::cell::OnceCell;
 
 use glam::{DMat4, DVec2, Mat4, Vec4};
 
-use super::{Axis, Background, Bvh, Camera, Frame, Hit, Projection, Surface, Viewport};
-use crate::geometry::{Aabb, Point};
+use super::{
+    Axis, Background, Bvh, Camera, Drag, Frame, FrontBuffers, Grip, Handle, Hit, Placement, Projection,
+    RegionBuffers, Surface, Viewport, handle, overlay,
+};
+use crate::{
+    geometry::{Aabb, Point},
+    sizing::Shape,
+};
 
 /// How the scene is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +30,7 @@ impl Default for Style {
     }
 }
 
-/// A surface seen by a camera.
+/// A surface and regions, seen by a camera.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The eye.
@@ -35,6 +41,15 @@ pub struct Scene {
     pub style: Style,
     surface: Option<Surface>,
     tree: OnceCell<Bvh>,
+    regions: Vec<Shape>,
+    placements: Vec<Option<Placement>>,
+    selected: Option<usize>,
+    hovered: Option<Grip>,
+    drag: Option<Drag>,
+    /// What the camera turns about or moves while a pointer is down.
+    grabbed: Option<Point>,
+    /// What it turns about where there is no face under the pointer, if the user chose it.
+    pivot: Option<Point>,
 }
 
 impl Default for Scene {
@@ -45,6 +60,13 @@ impl Default for Scene {
             style: Style::default(),
             surface: None,
             tree: OnceCell::new(),
+            regions: Vec::new(),
+            placements: Vec::new(),
+            selected: None,
+            hovered: None,
+            drag: None,
+            grabbed: None,
+            pivot: None,
         }
     }
 }
@@ -54,6 +76,140 @@ impl Scene {
     pub fn set_surface(&mut self, surface: Option<Surface>) {
         self.surface = surface;
         self.tree = OnceCell::new();
+        self.pivot = None;
+    }
+
+    /// Replaces the regions. The selected one shows its handles; a drag of it goes on.
+    pub fn set_regions(&mut self, regions: Vec<Shape>, selected: Option<usize>) {
+        self.placements = regions.iter().map(Placement::of).collect();
+        self.regions = regions;
+        if selected != self.selected {
+            self.selected = selected;
+            self.hovered = None;
+            self.drag = None;
+        }
+    }
+
+    /// The regions.
+    pub fn regions(&self) -> &[Shape] {
+        &self.regions
+    }
+
+    /// Where the regions that can be drawn are.
+    pub fn placements(&self) -> &[Option<Placement>] {
+        &self.placements
+    }
+
+    /// The region that shows its handles.
+    pub fn selected(&self) -> Option<usize> {
+        self.selected.filter(|&i| i < self.regions.len())
+    }
+
+    /// The handles of the selected region.
+    pub fn handles(&self) -> Vec<Handle> {
+        self.selected()
+            .map_or_else(Vec::new, |i| handle::handles(&self.regions[i], &self.camera, self.viewport))
+    }
+
+    fn handle_at(&self, pixel: DVec2, reach: f64) -> Option<Handle> {
+        let handles = self.handles();
+        handle::handle_at(&handles, pixel, reach, &self.camera, self.viewport).map(|i| handles[i])
+    }
+
+    /// Marks the handle within `reach` pixels of a pixel, if any.
+    pub fn hover(&mut self, pixel: DVec2, reach: f64) {
+        self.hovered = self.handle_at(pixel, reach).map(|h| h.grip);
+    }
+
+    /// The handle that is marked.
+    pub fn hovered(&self) -> Option<Grip> {
+        self.hovered
+    }
+
+    /// Takes hold of the handle within `reach` pixels of a pixel. False: there is none.
+    pub fn drag_start(&mut self, pixel: DVec2, reach: f64) -> bool {
+        let ray = self.camera.ray(pixel, self.viewport);
+        self.drag = self.handle_at(pixel, reach).and_then(|handle| {
+            let shape = &self.regions[self.selected()?];
+            Drag::new(shape, handle, &ray, &self.camera)
+        });
+        self.drag.is_some()
+    }
+
+    /// Drags the held handle to a pixel; the region as it is then. `None` if no handle is held.
+    pub fn drag_to(&mut self, pixel: DVec2) -> Option<&Shape> {
+        let selected = self.selected()?;
+        let drag = self.drag.as_ref()?;
+        if let Some(shape) = drag.to(&self.camera.ray(pixel, self.viewport)) {
+            self.placements[selected] = Placement::of(&shape);
+            self.regions[selected] = shape;
+        }
+        Some(&self.regions[selected])
+    }
+
+    /// Takes hold of what is under a pixel: [`Scene::orbit`] turns about it, [`Scene::pan`] makes it
+    /// follow the pointer.
+    pub fn grab(&mut self, pixel: DVec2) {
+        self.grabbed = Some(self.pivot_under(pixel));
+    }
+
+    /// Lets go of what was grabbed or dragged.
+    pub fn release(&mut self) {
+        self.grabbed = None;
+        self.drag = None;
+    }
+
+    /// Turns about what was grabbed, by radians.
+    pub fn orbit(&mut self, yaw: f64, pitch: f64) {
+        if let Some(pivot) = self.grabbed {
+            self.camera.orbit(pivot, yaw, pitch);
+        }
+    }
+
+    /// Moves what was grabbed by pixels.
+    pub fn pan(&mut self, pixels: DVec2) {
+        if let Some(grabbed) = self.grabbed {
+            self.camera.pan(grabbed, pixels, self.viewport);
+        }
+    }
+
+    /// Turns about the point of the surface under a pixel from now on, wherever a drag starts beside the
+    /// surface; the camera that looks at it. Beside the surface: about the middle again, and no camera.
+    pub fn set_pivot(&mut self, pixel: DVec2) -> Option<Camera> {
+        self.pivot = self.pick(pixel).map(|hit| hit.point);
+        let pivot = self.pivot?;
+        let middle = DVec2::new(self.viewport.width, self.viewport.height) * 0.5;
+        let mut camera = self.camera;
+        camera.pan(pivot, middle - pixel, self.viewport);
+        camera.distance = (pivot - camera.eye).dot(camera.axes()[2]).max(f64::MIN_POSITIVE);
+        Some(camera)
+    }
+
+    /// What the camera turns about, while it does.
+    pub fn pivot_shown(&self) -> Option<Point> {
+        self.grabbed
+    }
+
+    /// The nearest region under a pixel.
+    pub fn region_at(&self, pixel: DVec2) -> Option<usize> {
+        let ray = self.camera.ray(pixel, self.viewport);
+        self.placements
+            .iter()
+            .enumerate()
+            .filter_map(|(i, p)| Some((i, p.as_ref()?.entry(&ray)?)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(i, _)| i)
+    }
+
+    /// Draw buffers of the regions.
+    pub fn region_buffers(&self) -> RegionBuffers {
+        let theme = self.style.background.theme();
+        overlay::region_buffers(&self.placements, self.selected(), &self.frame(), &theme)
+    }
+
+    /// Draw buffers of handles, pivot and triad.
+    pub fn front_buffers(&self) -> FrontBuffers {
+        overlay::front_buffers(self)
     }
 
     /// The surface.
@@ -68,7 +224,9 @@ impl Scene {
 
     /// The box around all that is shown, in world coordinates.
     pub fn bounds(&self) -> Aabb {
-        self.surface.as_ref().map_or(Aabb::EMPTY, |s| *s.bounds())
+        let surface = self.surface.as_ref().map_or(Aabb::EMPTY, |s| *s.bounds());
+        let regions = self.placements.iter().flatten().map(Placement::bounds);
+        regions.fold(surface, |all, b| Aabb { min: all.min.min(b.min), max: all.max.max(b.max) })
     }
 
     /// The first face under a pixel. The first call on a surface sorts its faces.
@@ -91,7 +249,7 @@ impl Scene {
     pub fn pivot_under(&self, pixel: DVec2) -> Point {
         let bounds = self.bounds();
         let middle = if bounds.is_empty() { self.camera.target() } else { bounds.center() };
-        self.pick(pixel).map_or(middle, |hit| hit.point)
+        self.pick(pixel).map_or(self.pivot.unwrap_or(middle), |hit| hit.point)
     }
 
     /// The camera that shows everything from where it looks now.

@@ -8,7 +8,11 @@ use web_sys::HtmlCanvasElement;
 
 use crate::{
     render::Renderer,
-    scene::{Axis, Background, Camera, ColourMap, Projection, Scene, Style, Surface, Viewport, colour_index},
+    scene::{
+        Axis, Background, Camera, ColourMap, Handle, Projection, Scene, Style, Surface, Viewport,
+        colour_index,
+    },
+    sizing::Shape,
 };
 
 /// A scene drawn on a canvas.
@@ -17,7 +21,6 @@ pub struct Viewer {
     scene: Scene,
     renderer: Renderer,
     flight: Option<[Camera; 2]>,
-    grabbed: Option<glam::DVec3>,
 }
 
 /// A face and a point on it.
@@ -42,6 +45,13 @@ struct StyleChange {
     projection: Option<Projection>,
 }
 
+#[derive(serde::Serialize)]
+struct HandlePosition {
+    name: &'static str,
+    x: f64,
+    y: f64,
+}
+
 fn error(e: impl std::fmt::Display) -> JsError {
     JsError::new(&e.to_string())
 }
@@ -52,7 +62,7 @@ impl Viewer {
     pub async fn create(canvas: HtmlCanvasElement) -> Result<Viewer, JsError> {
         console_error_panic_hook::set_once();
         let renderer = Renderer::on_canvas(canvas).await.map_err(error)?;
-        Ok(Self { scene: Scene::default(), renderer, flight: None, grabbed: None })
+        Ok(Self { scene: Scene::default(), renderer, flight: None })
     }
 
     /// Fits a canvas of `width` by `height` CSS pixels with `ratio` device pixels each.
@@ -74,6 +84,7 @@ impl Viewer {
         let surface = Surface::new(nodes, offsets, corners).map_err(error)?;
         self.renderer.set_surface(Some(&surface)).map_err(error)?;
         self.scene.set_surface(Some(surface));
+        self.renderer.regions_changed();
         self.flight = None;
         if !keep_camera {
             self.scene.camera = self.scene.framed();
@@ -85,6 +96,7 @@ impl Viewer {
     #[wasm_bindgen(js_name = clearMesh)]
     pub fn clear_mesh(&mut self) -> Result<(), JsError> {
         self.scene.set_surface(None);
+        self.renderer.regions_changed();
         self.renderer.set_surface(None).map_err(error)
     }
 
@@ -124,6 +136,7 @@ impl Viewer {
             edge_width: change.edge_width.unwrap_or(style.edge_width).clamp(0.0, 20.0),
             background: change.background.unwrap_or(style.background),
         };
+        self.renderer.regions_changed();
         let camera = &mut self.scene.camera;
         camera.projection = change.projection.unwrap_or(camera.projection);
         Ok(())
@@ -144,23 +157,80 @@ impl Viewer {
         })
     }
 
+    /// Replaces the regions; the selected one shows its handles.
+    #[wasm_bindgen(js_name = setRegions)]
+    pub fn set_regions(&mut self, regions: JsValue, selected: Option<u32>) -> Result<(), JsError> {
+        let regions: Vec<Shape> = serde_wasm_bindgen::from_value(regions)?;
+        self.scene.set_regions(regions, selected.map(|i| i as usize));
+        self.renderer.regions_changed();
+        Ok(())
+    }
+
+    /// The index of the nearest region under a pixel.
+    #[wasm_bindgen(js_name = regionAt)]
+    pub fn region_at(&self, x: f64, y: f64) -> Option<u32> {
+        self.scene.region_at(DVec2::new(x, y)).map(|i| i as u32)
+    }
+
+    /// The handles of the selected region: `{ name, x, y }[]`.
+    pub fn handles(&self) -> Result<JsValue, JsError> {
+        let position = |h: Handle| {
+            let at = self.scene.camera.pixel(h.at, self.scene.viewport)?;
+            Some(HandlePosition { name: h.grip.name(), x: at.x, y: at.y })
+        };
+        let positions: Vec<_> = self.scene.handles().into_iter().filter_map(position).collect();
+        Ok(serde_wasm_bindgen::to_value(&positions)?)
+    }
+
+    /// Marks the handle within `reach` pixels of a pixel, if any.
+    pub fn hover(&mut self, x: f64, y: f64, reach: f64) {
+        self.scene.hover(DVec2::new(x, y), reach);
+    }
+
+    /// Name of the marked handle.
+    pub fn hovered(&self) -> Option<String> {
+        self.scene.hovered().map(|grip| grip.name().into())
+    }
+
+    /// Takes hold of the handle within `reach` pixels of a pixel. False: there is none.
+    #[wasm_bindgen(js_name = dragStart)]
+    pub fn drag_start(&mut self, x: f64, y: f64, reach: f64) -> bool {
+        self.scene.drag_start(DVec2::new(x, y), reach)
+    }
+
+    /// Drags the held handle to a pixel; the selected region as it is then.
+    #[wasm_bindgen(js_name = dragTo)]
+    pub fn drag_to(&mut self, x: f64, y: f64) -> Result<JsValue, JsError> {
+        self.renderer.regions_changed();
+        Ok(serde_wasm_bindgen::to_value(&self.scene.drag_to(DVec2::new(x, y)))?)
+    }
+
     /// Takes hold of what is under a pixel: `orbit` turns about it, `pan` makes it follow.
     pub fn grab(&mut self, x: f64, y: f64) {
         self.flight = None;
-        self.grabbed = Some(self.scene.pivot_under(DVec2::new(x, y)));
+        self.scene.grab(DVec2::new(x, y));
+    }
+
+    /// Lets go of what was grabbed or dragged.
+    pub fn release(&mut self) {
+        self.scene.release();
     }
 
     /// Turns about what was grabbed, by radians.
     pub fn orbit(&mut self, yaw: f64, pitch: f64) {
-        if let Some(pivot) = self.grabbed {
-            self.scene.camera.orbit(pivot, yaw, pitch);
-        }
+        self.scene.orbit(yaw, pitch);
     }
 
     /// Moves what was grabbed by pixels.
     pub fn pan(&mut self, x: f64, y: f64) {
-        if let Some(grabbed) = self.grabbed {
-            self.scene.camera.pan(grabbed, DVec2::new(x, y), self.scene.viewport);
+        self.scene.pan(DVec2::new(x, y));
+    }
+
+    /// Turns about the point under a pixel from now on, and prepares a flight that looks at it.
+    #[wasm_bindgen(js_name = setPivot)]
+    pub fn set_pivot(&mut self, x: f64, y: f64) {
+        if let Some(camera) = self.scene.set_pivot(DVec2::new(x, y)) {
+            self.fly_to(camera);
         }
     }
 

@@ -1,5 +1,15 @@
 // What all drawables share: one uniform a frame, and conversions of clip space.
 
+// A region: where faces cross its surface they are marked.
+struct Region {
+    // Scene to the coordinates of its unit solid.
+    unit_from_scene: mat4x4<f32>,
+    // Colour, and the solid: 0 cube, 1 ball, 2 cylinder.
+    colour_solid: vec4<f32>,
+}
+
+const REGIONS: u32 = 16u;
+
 struct Frame {
     clip_from_scene: mat4x4<f32>,
     // Directions: scene to view, x right, y up, z towards the eye.
@@ -13,6 +23,9 @@ struct Frame {
     front: vec4<f32>,
     back: vec4<f32>,
     edge: vec4<f32>,
+    // x: how many regions there are.
+    counts: vec4<u32>,
+    regions: array<Region, REGIONS>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -91,6 +91,31 @@ fn edge_cover(sides: vec3<f32>, polygon: f32) -> f32 {
     return max(shown.x, max(shown.y, shown.z));
 }
 
+// How far outside the unit solid a point is: 0 on its surface, negative inside.
+fn outside(solid: f32, p: vec3<f32>) -> f32 {
+    if solid < 0.5 {
+        return max(abs(p.x), max(abs(p.y), abs(p.z))) - 1.0;
+    }
+    if solid < 1.5 {
+        return length(p) - 1.0;
+    }
+    return max(length(p.xy), abs(p.z)) - 1.0;
+}
+
+// The colour with what lies in a region tinted, and a line where the surface crosses a region's.
+fn mark_regions(position: vec3<f32>, plain: vec3<f32>) -> vec3<f32> {
+    var colour = plain;
+    for (var i = 0u; i < min(frame.counts.x, REGIONS); i++) {
+        let region = frame.regions[i];
+        let depth = outside(region.colour_solid.w, (region.unit_from_scene * vec4<f32>(position, 1.0)).xyz);
+        let pixels = depth / max(length(vec2<f32>(dpdx(depth), dpdy(depth))), 1e-9);
+        let line = 1.0 - smoothstep(frame.canvas.z - 0.5, frame.canvas.z + 0.5, abs(pixels));
+        let inside = 1.0 - smoothstep(-0.5, 0.5, pixels);
+        colour = mix(colour, region.colour_solid.rgb, max(0.16 * inside, 0.9 * line));
+    }
+    return colour;
+}
+
 @fragment
 fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) vec4<f32> {
     let to_eye = towards_eye(in.position);
@@ -101,5 +126,5 @@ fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) 
     }
     colour *= light(in.normal * facing, to_eye);
     let cover = edge_cover(in.sides, in.polygon) * f32(mesh.edges) * frame.edge.a;
-    return vec4<f32>(mix(colour, frame.edge.rgb, cover), 1.0);
+    return vec4<f32>(mark_regions(in.position, mix(colour, frame.edge.rgb, cover)), 1.0);
 }
