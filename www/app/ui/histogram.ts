@@ -3,8 +3,10 @@
 import { html, nothing, svg } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { live } from 'lit-html/directives/live.js';
-import type { Histogram } from 'hexmill';
+import type { QualitySummary } from 'hexmill';
 import type { Range } from '../model/inspection.js';
+
+type Histogram = QualitySummary['histogram'];
 
 export interface HistogramView {
   readonly label: string;
