@@ -309,7 +309,7 @@ export class Workbench {
     if (!result || !known) return null;
     this.trouble.output.value = null;
     try {
-      const content = await this.#busy('writing', () => result.mesh.export(format));
+      const content = await this.#busy('writing', (signal) => result.mesh.export(format, { signal }));
       if (content === null) return null;
       const name = `${stem(result.input.name)}.${known.extension}`;
       this.log.add('info', `Wrote ${name}: ${bytes(content.byteLength)}.`);
