@@ -7,11 +7,13 @@ import type {} from '../../www/app/ui/page.js';
 import { launchBrowser } from '../../scripts/browser.mjs';
 import { serveFolder } from '../../scripts/static-server.mjs';
 
-const SITE = fileURLToPath(new URL('../../site/', import.meta.url));
+const SITE = fileURLToPath(new URL('../../site', import.meta.url));
 const MODELS = new URL('../../examples/models/', import.meta.url);
 
 /** The middle of the view at 1440 x 900, clear of the columns and the toolbar. */
 const CLEAR = { x: 330, y: 60, width: 780, height: 660 };
+/** Milliseconds that an element may take to appear. */
+const PATIENCE = 15_000;
 /** Channels that differ by less, of 255, look the same. */
 const SAME = 12;
 
@@ -51,6 +53,7 @@ export class Workbench {
     const server = await serveFolder(SITE, { isolated });
     const browser = await launchBrowser({ args: [...flags] });
     const page = await (await browser.newContext({ viewport: { width: 1440, height: 900 }, ...context })).newPage();
+    page.setDefaultTimeout(PATIENCE);
     const workbench = new Workbench(page, browser, server);
     await prepare?.(page);
     await page.goto(`${server.url}${link}`);
