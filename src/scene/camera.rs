@@ -1,4 +1,4 @@
-//! The camera: a turntable with Z up that orbits about any point, pans, and zooms to any point.
+//! The camera: a turntable with Z or Y up that orbits about any point, pans, and zooms to any point.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -52,6 +52,38 @@ pub enum Axis {
     Iso,
 }
 
+/// The direction that is up on the screen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Up {
+    /// As in CAD.
+    #[default]
+    Z,
+    /// As in modelling and animation; the front looks along +z.
+    Y,
+}
+
+impl Up {
+    /// A vector of the turntable, whose own axis is z, in the world.
+    fn world_from_turntable(self, v: DVec3) -> DVec3 {
+        match self {
+            Self::Z => v,
+            Self::Y => DVec3::new(v.x, v.z, -v.y),
+        }
+    }
+
+    /// A direction of the world, seen from the turntable.
+    fn turntable_from_world(self, axis: Axis) -> Axis {
+        match (self, axis) {
+            (Self::Y, Axis::PlusY) => Axis::PlusZ,
+            (Self::Y, Axis::MinusY) => Axis::MinusZ,
+            (Self::Y, Axis::PlusZ) => Axis::MinusY,
+            (Self::Y, Axis::MinusZ) => Axis::PlusY,
+            _ => axis,
+        }
+    }
+}
+
 /// Size of the canvas in CSS pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewport {
@@ -75,7 +107,9 @@ pub struct Ray {
 pub struct Camera {
     /// The eye.
     pub eye: Point,
-    /// Turn about Z of the view direction, from +x.
+    /// What is up.
+    pub up: Up,
+    /// Turn of the view direction about the upward axis, from +x.
     pub yaw: f64,
     /// Rise of the view direction above the horizon.
     pub pitch: f64,
@@ -88,8 +122,14 @@ pub struct Camera {
 impl Default for Camera {
     fn default() -> Self {
         let unit = Aabb { min: Point::splat(-1.0), max: Point::splat(1.0) };
-        let mut camera =
-            Self { eye: Point::ZERO, yaw: 0.0, pitch: 0.0, distance: 1.0, projection: Projection::default() };
+        let mut camera = Self {
+            eye: Point::ZERO,
+            up: Up::default(),
+            yaw: 0.0,
+            pitch: 0.0,
+            distance: 1.0,
+            projection: Projection::default(),
+        };
         camera.turn_to(Axis::Iso);
         camera.frame(&unit, Viewport { width: 1.0, height: 1.0 });
         camera
@@ -103,7 +143,7 @@ impl Camera {
         let (sin_pitch, cos_pitch) = self.pitch.sin_cos();
         let forward = DVec3::new(cos_pitch * cos_yaw, cos_pitch * sin_yaw, sin_pitch);
         let right = DVec3::new(sin_yaw, -cos_yaw, 0.0);
-        [right, right.cross(forward), forward]
+        [right, right.cross(forward), forward].map(|v| self.up.world_from_turntable(v))
     }
 
     /// The point looked at.
@@ -142,8 +182,8 @@ impl Camera {
     }
 
     fn turn_to(&mut self, axis: Axis) {
-        // Seen from above, +y is up on the screen; so is it from below.
-        (self.yaw, self.pitch) = match axis {
+        // Seen from above, what is behind is up on the screen; so is it from below.
+        (self.yaw, self.pitch) = match self.up.turntable_from_world(axis) {
             Axis::PlusX => (0.0, 0.0),
             Axis::MinusX => (PI, 0.0),
             Axis::PlusY => (FRAC_PI_2, 0.0),
@@ -355,6 +395,28 @@ mod tests {
             up.z > 0.8 && forward.z < 0.0 && forward.y > 0.0 && forward.x < 0.0,
             "{right} {up} {forward}"
         );
+    }
+
+    #[test]
+    fn with_y_up_the_axes_keep_their_meaning() {
+        for axis in AXES.into_iter().filter(|&axis| axis != Axis::Iso) {
+            let z_up = Camera::default();
+            let mut y_up = Camera { up: Up::Y, ..z_up };
+            y_up.look_along(axis);
+            let mut same = z_up;
+            same.look_along(axis);
+            assert!(
+                (y_up.axes()[2] - same.axes()[2]).length() < 1e-12,
+                "{axis:?} is a direction of the world"
+            );
+        }
+        let mut camera = Camera { up: Up::Y, ..Camera::default() };
+        camera.look_along(Axis::Iso);
+        let [right, up, forward] = camera.axes();
+        assert!(up.y > 0.8 && right.y.abs() < 1e-12, "Y is up");
+        assert!(forward.z < 0.0 && forward.x < 0.0, "seen from the front and right");
+        camera.orbit(Point::ONE, 0.4, 0.1);
+        assert!(camera.axes()[0].y.abs() < 1e-12, "the horizon stays level");
     }
 
     #[test]

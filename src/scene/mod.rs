@@ -21,7 +21,7 @@ mod theme;
 mod triangulate;
 
 pub use bvh::{Bvh, Hit};
-pub use camera::{Axis, Camera, Projection, Ray, Viewport};
+pub use camera::{Axis, Camera, Projection, Ray, Up, Viewport};
 pub use colour::{ColourMap, NO_VALUE, Palette, colour_index};
 pub use frame::Frame;
 pub use handle::{Drag, Grip, Handle};

@@ -64,11 +64,4 @@ effect(() => reflect(page));
 listen(page);
 void page.viewport.start(part('view'));
 page.openLink();
-
-declare global {
-  interface Window {
-    /** For tests and for the curious. */
-    hexmill: Page;
-  }
-}
 window.hexmill = page;

@@ -2,7 +2,8 @@
 
 import { batch, computed, effect, signal } from '@preact/signals-core';
 import type { Metric } from 'hexmill';
-import { countBetween, isAcceptable, metricInfo, worstCells } from './metrics.js';
+import { complaint } from './complaint.js';
+import { countBetween, histogramOf, isAcceptable, metricInfo, worstCells } from './metrics.js';
 import type { Workbench } from './workbench.js';
 
 export type Colour = 'plain' | 'level' | 'quality';
@@ -14,6 +15,8 @@ export interface Range {
 
 /** Worst cells listed. */
 const WORST = 100;
+/** Bars of the histogram. */
+const BINS = 48;
 
 export class Inspection {
   readonly colour = signal<Colour>('plain');
@@ -26,6 +29,7 @@ export class Inspection {
   readonly cell = signal<number | null>(null);
 
   readonly info = computed(() => metricInfo(this.metric.value));
+  readonly histogram = computed(() => (this.values.value ? histogramOf(this.values.value, this.info.value, BINS) : null));
   readonly worst = computed<readonly number[]>(() => (this.values.value ? worstCells(this.values.value, this.info.value, WORST) : []));
   /** Where `cell` stands among the worst, from 0; null if it is none of them. */
   readonly rank = computed(() => {
@@ -55,9 +59,12 @@ export class Inspection {
         this.colour.value = 'plain';
         return;
       }
-      void Promise.resolve(mesh.qualityOf(metric)).then((values) => {
-        if (workbench.result.peek()?.mesh === mesh && this.metric.peek() === metric) this.values.value = values;
-      });
+      mesh.qualityOf(metric).then(
+        (values) => {
+          if (workbench.result.peek()?.mesh === mesh && this.metric.peek() === metric) this.values.value = values;
+        },
+        (error: unknown) => workbench.log.add('error', `No ${this.info.peek().label.toLowerCase()}: ${complaint(error).text}`),
+      );
     });
   }
 

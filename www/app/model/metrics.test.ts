@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { countBetween, levelCounts, metricInfo, worstCells } from './metrics.js';
+import { countBetween, histogramOf, levelCounts, metricInfo, worstCells } from './metrics.js';
 import { mapColour, qualityPlace } from './colouring.js';
 
 test('worst cells come worst first, equal ones in the order of the mesh', () => {
@@ -26,4 +26,12 @@ test('the bad end of every measure has the same colour', () => {
   expect(mapColour('quality', qualityPlace(metricInfo('maxAngle'), 180))).toBe('rgb(140 10 40)');
   expect(mapColour('quality', qualityPlace(metricInfo('aspect'), 1))).toBe('rgb(74 144 200)');
   expect(mapColour('levels', 0.5)).toBe('rgb(87 91 180)');
+});
+
+test('histograms count every value, over a range that holds the usual ones', () => {
+  const jacobian = histogramOf(Float32Array.of(0, 0.26, 0.5, 1), metricInfo('scaledJacobian'), 4);
+  expect(jacobian).toEqual({ min: 0, max: 1, counts: [1, 1, 1, 1] });
+  expect(histogramOf(Float32Array.of(-1, 1), metricInfo('scaledJacobian'), 2)).toEqual({ min: -1, max: 1, counts: [1, 1] });
+  expect(histogramOf(Float32Array.of(1, 3), metricInfo('aspect'), 2)).toEqual({ min: 1, max: 3, counts: [1, 1] });
+  expect(histogramOf(Float32Array.of(1, 1), metricInfo('aspect'), 2).counts).toEqual([2, 0]);
 });

@@ -53,6 +53,27 @@ export function isAcceptable(info: MetricInfo, value: number): boolean {
   return info.worst === 'low' ? value >= info.acceptable : value <= info.acceptable;
 }
 
+export interface Histogram {
+  readonly min: number;
+  readonly max: number;
+  readonly counts: readonly number[];
+}
+
+/** Counts of `values` in `bins` equal steps over the metric's usual range, widened to hold all of them. */
+export function histogramOf(values: Float32Array, info: MetricInfo, bins: number): Histogram {
+  let [min, max] = [info.range[0], info.worst === 'low' ? info.range[1] : info.range[0] + 1e-6];
+  for (const value of values) {
+    if (value < min) min = value;
+    if (value > max) max = value;
+  }
+  const counts = new Array<number>(bins).fill(0);
+  for (const value of values) {
+    const bin = Math.min(bins - 1, Math.floor((bins * (value - min)) / (max - min)));
+    if (bin >= 0) counts[bin] = (counts[bin] ?? 0) + 1;
+  }
+  return { min, max, counts };
+}
+
 /** How many of `values` lie from `low` to `high`. */
 export function countBetween(values: Float32Array, low: number, high: number): number {
   let found = 0;

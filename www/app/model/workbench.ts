@@ -8,7 +8,7 @@ import type { Estimate, OutputFormat, Mesher, QuadMesh, Surface } from 'hexmill'
 import { complaint } from './complaint.js';
 import type { Complaint } from './complaint.js';
 import type { Example } from './examples.js';
-import { formatOf, stem, WRITABLE } from './formats.js';
+import { formatOf, READABLE, stem, WRITABLE } from './formats.js';
 import { History } from './history.js';
 import { debounced, Latest } from './latest.js';
 import { formatLink } from './link.js';
@@ -121,9 +121,10 @@ export class Workbench {
   async load(name: string, content: () => Promise<ArrayBuffer>, example: Example | null = null, settings: Partial<Settings> = {}): Promise<void> {
     this.trouble.input.value = null;
     try {
-      const surface = await this.#busy('reading', async () => {
+      if (!formatOf(name)) throw new Error(`This is none of the formats that are read: ${READABLE.map(({ extension }) => `.${extension}`).join(', ')}`);
+      const surface = await this.#busy('reading', async (signal) => {
         const mesher = await this.#mesher;
-        return await mesher.load(new Uint8Array(await content()), { name, ...formatOption(name) });
+        return await mesher.load(await content(), { name, signal });
       });
       if (surface === null) return;
       batch(() => {
@@ -242,7 +243,7 @@ export class Workbench {
     try {
       const mesher = await this.#mesher;
       const options = toOptions(this.settings.value);
-      const estimate = await this.#estimates.run(() => mesher.estimateQuads(input.surface, options));
+      const estimate = await this.#estimates.run((signal) => mesher.estimateQuads(input.surface, { ...options, signal }));
       if (!estimate) return;
       batch(() => {
         this.estimate.value = estimate;
@@ -308,7 +309,7 @@ export class Workbench {
     if (!result || !known) return null;
     this.trouble.output.value = null;
     try {
-      const content = await this.#busy('writing', () => result.mesh.export(format));
+      const content = await this.#busy('writing', (signal) => result.mesh.export(format, { signal }));
       if (content === null) return null;
       const name = `${stem(result.input.name)}.${known.extension}`;
       this.log.add('info', `Wrote ${name}: ${bytes(content.byteLength)}.`);
@@ -344,11 +345,6 @@ export class Workbench {
       if (this.running.value === shown) this.running.value = null;
     }
   }
-}
-
-function formatOption(name: string): { format?: ReturnType<typeof formatOf> & string } {
-  const format = formatOf(name);
-  return format ? { format } : {};
 }
 
 /** The defaults for a model, overruled by `settings`. */

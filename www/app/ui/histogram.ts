@@ -3,8 +3,8 @@
 import { html, nothing, svg } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { live } from 'lit-html/directives/live.js';
-import type { Histogram } from 'hexmill';
 import type { Range } from '../model/inspection.js';
+import type { Histogram } from '../model/metrics.js';
 
 export interface HistogramView {
   readonly label: string;
@@ -39,7 +39,7 @@ export function histogram(view: HistogramView): TemplateResult {
   return html`<div class="histogram">
     <svg viewBox="0 -4 ${WIDTH} ${HEIGHT + 4}" preserveAspectRatio="none" role="img" aria-label=${view.label}
       @pointerdown=${(event: PointerEvent) => drag(event, view)}>
-      ${Array.from(counts).map(bar)}
+      ${counts.map(bar)}
       ${view.bound > min && view.bound < max ? svg`<line class="bound" x1=${x(view.bound)} x2=${x(view.bound)} y1="-4" y2=${HEIGHT} />` : nothing}
       ${view.marked === null ? nothing : svg`<path class="marked" d=${`M${x(view.marked)} ${HEIGHT}V-4`} />`}
     </svg>

@@ -53,7 +53,6 @@ function inputSummary({ name, example, surface }: Input): TemplateResult {
       <dt>Edges</dt><dd>${significant(info.meanEdge, 3)} mean<small>${significant(info.longestEdge, 3)} longest</small></dd>
       <dt>Surface</dt><dd>${closure(info)}<small>${pieces(info)}</small></dd>
     </dl>
-    ${info.nonManifoldEdges > 0 ? html`<p class="notice">${icon('warn')}<span>${count(info.nonManifoldEdges)} edges join more than two faces. They are refined as they are.</span></p>` : nothing}
     ${info.defects.length > 0 ? defectList(info.defects) : nothing}
     ${example
       ? html`<p class="credit">${example.by}. ${example.licence}. <a href=${example.source} target="_blank" rel="noopener">Source</a></p>`

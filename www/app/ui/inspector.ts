@@ -8,7 +8,7 @@ import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { deepest, mapColour, qualityPlace } from '../model/colouring.js';
 import { isAcceptable, levelCounts, METRICS } from '../model/metrics.js';
-import { count, duration, fixed, percent, roughCount } from '../model/text.js';
+import { count, duration, fixed, percent } from '../model/text.js';
 import type { Result } from '../model/workbench.js';
 
 export function inspector(page: Page): TemplateResult {
@@ -32,11 +32,10 @@ export function inspector(page: Page): TemplateResult {
 }
 
 function figures({ mesh, milliseconds }: Result): TemplateResult {
-  const quads = mesh.quads.length / 4;
   return html`<section class="figures" aria-label="Counts">
-    <p><b data-figure="quads">${count(quads)}</b><span>quads</span></p>
+    <p><b data-figure="quads">${count(mesh.quads.length / 4)}</b><span>quads</span></p>
     <p><b data-figure="nodes">${count(mesh.nodes.length / 3)}</b><span>nodes</span></p>
-    <p class="aside">${duration(milliseconds)}, ${roughCount(quads / Math.max(1e-3, milliseconds / 1000))} quads a second</p>
+    <p class="aside">made in ${duration(milliseconds)}</p>
   </section>`;
 }
 
@@ -54,6 +53,7 @@ function certificate(page: Page, { mesh }: Result): TemplateResult {
         ? CERTIFIED.map((text) => html`<li class="good">${icon('check')}${text}</li>`)
         : defects.slice(0, DEFECTS_SHOWN).map((text) => html`<li class="bad">${icon('warn')}${text}</li>`)}
       ${more > 0 ? html`<li>and ${count(more)} more, in the log</li>` : nothing}
+      ${mesh.capped > 0 ? html`<li class="note">${icon('warn')}${count(mesh.capped)} cells are larger than asked for: the deepest level was reached.</li>` : nothing}
     </ul>
     <p class="hash"><span title="The same settings give this hash on every machine">Hash</span><code>${mesh.hash}</code>
       ${iconButton({ icon: 'copy', label: 'Copy the hash', press: () => void page.copyHash(mesh.hash) })}</p>
@@ -66,8 +66,12 @@ function quality({ inspection }: Page, { mesh }: Result): TemplateResult {
   const text = (value: number): string => `${fixed(value, info.decimals)}${info.unit}`;
   const quads = mesh.quads.length / 4;
   const { brush, brushed, cell, values } = inspection;
-  const worst = info.worst === 'low' ? (['Min', summary.min] as const) : (['Max', summary.max] as const);
-  const stats = [worst, ['1st pct', summary.percentile1], ['Mean', summary.mean]] as const;
+  const { min, max, mean, percentile1 } = summary;
+  const stats =
+    info.worst === 'low'
+      ? ([['Minimum', min], ['1st percentile', percentile1], ['Mean', mean]] as const)
+      : ([['Maximum', max], ['Mean', mean], ['Minimum', min]] as const);
+  const bars = inspection.histogram.value;
   return html`<section aria-labelledby="quality-title">
     <div class="title-row">
       <h2 id="quality-title">Quality</h2>
@@ -76,9 +80,9 @@ function quality({ inspection }: Page, { mesh }: Result): TemplateResult {
     <dl class="stats">
       ${stats.map(([name, value]) => html`<div class=${isAcceptable(info, value) ? '' : 'bad'}><dt>${name}</dt><dd>${text(value)}</dd></div>`)}
     </dl>
-    ${histogram({
+    ${bars && histogram({
       label: `Histogram of ${info.label.toLowerCase()}, ${text(summary.min)} to ${text(summary.max)}`,
-      histogram: summary.histogram, brush: brush.value, colour: (v) => mapColour('quality', qualityPlace(info, v)), text, bound: info.acceptable,
+      histogram: bars, brush: brush.value, colour: (v) => mapColour('quality', qualityPlace(info, v)), text, bound: info.acceptable,
       marked: cell.value === null ? null : (values.value?.[cell.value] ?? null), select: (range) => inspection.select(range),
     })}
     ${brush.value

@@ -1,5 +1,6 @@
 /** What the panels share: the workbench, the inspection, the viewport, and the state of the page itself. */
 
+/// <reference types="vite/client" />
 import { signal } from '@preact/signals-core';
 import { EXAMPLES, exampleById } from '../model/examples.js';
 import { stem } from '../model/formats.js';
@@ -10,6 +11,13 @@ import { Workbench } from '../model/workbench.js';
 import type { OutputFormat, Mesher } from 'hexmill';
 import { Theme } from './theme.js';
 import { Viewport } from './viewport.js';
+
+declare global {
+  interface Window {
+    /** For tests and for the curious. */
+    hexmill: Page;
+  }
+}
 
 /** The addresses of the examples, by file name. */
 const EXAMPLE_URLS = Object.fromEntries(

@@ -3,10 +3,11 @@
 import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { numberField, segmented, slider, toggle } from './controls.js';
+import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { LIMITS } from '../model/settings.js';
 import { diagonal } from '../model/shape.js';
-import { counted, editable, significant } from '../model/text.js';
+import { count, counted, significant } from '../model/text.js';
 
 /** The slider spans these parts of the model's diagonal. */
 const FINEST = 1 / 2000;
@@ -25,7 +26,7 @@ export function sizeStep(page: Page): TemplateResult {
     ${settings.by === 'length' ? edgeLength(page) : levels(page)}
     ${curvature(page)}
     <details class="more" ?open=${page.moreSize.value} @toggle=${(event: Event) => (page.moreSize.value = (event.target as HTMLDetailsElement).open)}>
-      <summary>Growth and limits</summary>
+      <summary>${icon('chevron')}Growth and limits</summary>
       ${further(page)}
     </details>`;
 }
@@ -71,8 +72,8 @@ function pick({ min, max }: { min: number; max: number }): { min: number; max: n
 
 function further({ workbench }: Page): TemplateResult {
   const { gradation, keepCoarse, maxLevels, maxQuads } = workbench.settings.value;
-  const allQuads = workbench.input.value?.surface.info;
-  const canKeep = !allQuads || allQuads.quads === allQuads.faces;
+  const info = workbench.input.value?.surface.info;
+  const others = info ? info.faces - info.quads : 0;
   return html`
     ${numberField({ label: 'Growth from one cell to the next, at most', value: gradation, ...LIMITS.gradation, unit: 'times', step: 0.05, change: (v) => workbench.edit({ gradation: v }) })}
     <div class="pair">
@@ -81,6 +82,6 @@ function further({ workbench }: Page): TemplateResult {
     </div>
     ${toggle(
       'Keep coarse quads', keepCoarse, (on) => workbench.edit({ keepCoarse: on }),
-      canKeep ? 'Quads that nothing asks to refine stay whole.' : `Needs an input of quads only; this one has ${editable((allQuads?.faces ?? 0) - (allQuads?.quads ?? 0), 9)} other faces.`,
+      others === 0 ? 'Quads that nothing asks to refine stay whole.' : `For inputs of quads only; this one has ${count(others)} other faces.`,
     )}`;
 }

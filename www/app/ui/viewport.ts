@@ -20,6 +20,8 @@ export class Viewport {
   #view: View | null = null;
   #stop: (() => void)[] = [];
   #dragging = false;
+  /** The mesh could not be drawn, though the view works. */
+  #undrawn = false;
 
   constructor(page: Page) {
     this.#page = page;
@@ -99,8 +101,11 @@ export class Viewport {
       if (workbench.shows.value === 'mesh') inspection.cell.value = hit?.face ?? null;
     });
     view.onLost((message) => {
-      this.#drop();
+      this.#undrawn = false;
       this.#fail(message);
+    });
+    view.onRestored(() => {
+      this.trouble.value = null;
     });
   }
 
@@ -127,8 +132,10 @@ export class Viewport {
   #guard(draw: () => void): void {
     try {
       draw();
-      if (this.ready.peek()) this.trouble.value = null;
+      if (this.#undrawn) this.trouble.value = null;
+      this.#undrawn = false;
     } catch (error) {
+      this.#undrawn = true;
       this.#fail(error);
     }
   }

@@ -1,0 +1,138 @@
+// One way through the page: drop, size, region, mesh, look, export.
+
+import { readFile } from 'node:fs/promises';
+import type { Download } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { model, whole, Workbench } from './workbench.js';
+
+describe.each([
+  { name: 'a cross-origin isolated page', isolated: true },
+  { name: 'a page that is not isolated', isolated: false },
+])('on $name', ({ isolated }) => {
+  let bench: Workbench;
+  beforeAll(async () => {
+    bench = await Workbench.open({ isolated });
+  });
+  afterAll(() => bench?.close());
+
+  test('the mesher takes the threads it may', async () => {
+    await bench.page.locator('.threads').waitFor();
+    expect(await bench.page.evaluate(() => crossOriginIsolated)).toBe(isolated);
+    const threads = await bench.page.evaluate(() => window.hexmill.workbench.threads.value);
+    const cores = await bench.page.evaluate(() => navigator.hardwareConcurrency);
+    if (isolated && cores > 1) expect(threads).toBeGreaterThan(1);
+    else expect(threads).toBe(1);
+  });
+
+  test('a dropped file is read, described and drawn', async () => {
+    const before = await bench.picture();
+    await bench.open('pawn.obj', model('pawn.obj'));
+    expect(await bench.fact('Faces')).toMatch(/588\s*all quads/);
+    expect(await bench.fact('Nodes')).toBe('601');
+    expect(await bench.difference(before, await bench.picture())).toBeGreaterThan(0.03);
+  });
+
+  test('the estimate follows the edge length', async () => {
+    const estimate = bench.page.locator('.estimate b');
+    const coarse = await estimate.innerText();
+    await bench.fill('No edge longer than', '0.02');
+    await expect.poll(() => estimate.innerText()).not.toBe(coarse);
+  });
+
+  test('a region is added and dragged by its handle', async () => {
+    const before = await bench.picture();
+    await bench.page.getByRole('button', { name: 'Add sphere' }).click();
+    const placed = await bench.picture();
+    expect(await bench.difference(before, placed)).toBeGreaterThan(0.005);
+
+    const numbers = (): Promise<string> => bench.page.evaluate(() => JSON.stringify(window.hexmill.workbench.settings.value.regions[0]?.shape));
+    const [shape, handle] = [await numbers(), await bench.handle()];
+    await bench.dragMouse(handle, { x: 60, y: -40 });
+    expect(await numbers()).not.toBe(shape);
+    expect(await bench.difference(placed, await bench.picture())).toBeGreaterThan(0.002);
+    const moved = await bench.handle(handle.name);
+    expect(Math.hypot(moved.x - handle.x, moved.y - handle.y)).toBeGreaterThan(5);
+  });
+
+  test('dragging is one step to undo', async () => {
+    const numbers = (): Promise<string> => bench.page.evaluate(() => JSON.stringify(window.hexmill.workbench.settings.value.regions[0]?.shape));
+    const dragged = await numbers();
+    await bench.page.keyboard.press('Control+z');
+    expect(await numbers()).not.toBe(dragged);
+    await bench.page.keyboard.press('Control+Shift+z');
+    expect(await numbers()).toBe(dragged);
+  });
+
+  test('the mesh is made, checked and drawn', async () => {
+    const before = await bench.picture();
+    await bench.mesh();
+    expect(await bench.figure('quads')).toBeGreaterThan(4 * 588);
+    expect(await bench.page.locator('[data-valid]').getAttribute('data-valid')).toBe('true');
+    expect(await bench.difference(before, await bench.picture())).toBeGreaterThan(0.01);
+  });
+
+  test('the region is finer than the rest', async () => {
+    const levels = await bench.page.locator('.levels li').count();
+    expect(levels).toBeGreaterThan(1);
+  });
+
+  test('colours show quality and levels', async () => {
+    const plain = await bench.picture();
+    await bench.radio('Quality').check();
+    const quality = await bench.picture();
+    expect(await bench.difference(plain, quality)).toBeGreaterThan(0.02);
+    await bench.radio('Level').check();
+    expect(await bench.difference(quality, await bench.picture())).toBeGreaterThan(0.02);
+  });
+
+  test('a brushed range of the histogram is what stays coloured', async () => {
+    await bench.radio('Quality').check();
+    const all = await bench.picture();
+    const bars = await bench.page.locator('.histogram svg').boundingBox();
+    if (!bars) throw new Error('no histogram');
+    await bench.dragMouse({ x: bars.x + 2, y: bars.y + 30 }, { x: bars.width / 2, y: 0 });
+    const shown = whole(await bench.page.locator('.hint', { hasText: 'cells from' }).innerText());
+    expect(shown).toBeGreaterThan(0);
+    expect(shown).toBeLessThan(await bench.figure('quads'));
+    expect(await bench.difference(all, await bench.picture())).toBeGreaterThan(0.01);
+    await bench.page.getByRole('button', { name: 'Show all' }).click();
+    expect(await bench.difference(all, await bench.picture())).toBeLessThan(0.001);
+  });
+
+  test('the worst cell is flown to', async () => {
+    const all = await bench.picture();
+    await bench.page.getByRole('button', { name: 'Next of the worst cells' }).click();
+    const cell = bench.page.locator('[data-cell]');
+    const worst = Number(await cell.locator('dd').first().innerText());
+    expect(worst).toBeCloseTo(Number(await bench.page.locator('.stats dd').first().innerText()), 3);
+    expect(await bench.difference(all, await bench.picture())).toBeGreaterThan(0.05);
+  });
+
+  test('exported files hold the same mesh', async () => {
+    const [quads, nodes] = [await bench.figure('quads'), await bench.figure('nodes')];
+    const obj = await text(await bench.export('OBJ, Wavefront'));
+    expect(obj.match(/^v /gm)).toHaveLength(nodes);
+    expect(obj.match(/^f( \S+){4}$/gm)).toHaveLength(quads);
+
+    const vtu = await bench.export('VTU, ParaView');
+    expect(vtu.suggestedFilename()).toBe('pawn.vtu');
+    const xml = await bytes(vtu);
+    const head = new TextDecoder('latin1').decode(xml);
+    expect(head).toContain(`NumberOfPoints="${nodes}"`);
+    expect(head).toContain(`NumberOfCells="${quads}"`);
+    await bench.open('again.vtu', xml);
+    expect(whole(await bench.fact('Faces'))).toBe(quads);
+    expect(whole(await bench.fact('Nodes'))).toBe(nodes);
+    expect(await bench.fact('Surface')).toMatch(/open edges/);
+  });
+
+  test('nothing went wrong unseen', () => expect(bench.uncaught).toEqual([]));
+});
+
+async function bytes(download: Download): Promise<Uint8Array> {
+  return new Uint8Array(await readFile(await download.path()));
+}
+
+async function text(download: Download): Promise<string> {
+  return readFile(await download.path(), 'utf8');
+}
