@@ -22,4 +22,4 @@ pub use quad_hull::QuadHull;
 pub type Point = glam::DVec3;
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
-mod samples;
+pub(crate) mod samples;

@@ -1,6 +1,11 @@
 //! Where elements are to be refined: options and regions made ready for many questions.
 
-use super::{Region, Shape, Target};
+use rayon::prelude::*;
+
+use super::curvature::turn_per_length;
+use super::error::{SizingError, validate};
+use super::overlap::{Overlap, Probe};
+use super::{Region, Target};
 use crate::geometry::Point;
 use crate::mesh::{FaceId, PolygonMesh};
 
@@ -17,67 +22,141 @@ pub struct SizedElement {
     pub root: FaceId,
 }
 
-/// What a size field is made of.
+/// What a size field is made of. Lengths are in model units.
 #[derive(Clone, Copy, Debug)]
 pub struct SizeOptions<'a> {
     /// No edge longer than this, anywhere.
     pub edge_length: Option<f64>,
     /// Turn of the surface's normal that one edge may span, in degrees.
     pub curvature: Option<f64>,
-    /// How much larger an element may be than its neighbour.
+    /// How much larger an element may be than its neighbour, 1 < gradation <= 2: at a distance d from a region
+    /// with a target size, no edge is longer than size + (gradation - 1) · d. With 2 strong balance sees to that.
     pub gradation: f64,
     /// Where to refine further.
     pub regions: &'a [Region],
 }
 
-/// Why a size field cannot be made.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SizingError {}
-
-impl SizingError {
-    /// A stable name of the kind of error.
-    pub fn code(&self) -> &'static str {
-        match *self {}
-    }
-}
-
 /// Tells which elements are to be refined.
 #[derive(Debug)]
 pub struct SizeField {
+    /// No edge longer than this, anywhere.
     edge_length: f64,
-    regions: Vec<Region>,
+    /// For each input face: no edge longer than this in it. Empty if curvature asks for nothing.
+    by_face: Vec<f64>,
+    regions: Vec<Graded>,
+    /// No element of level 1 has a longer edge than this.
+    longest: f64,
+}
+
+/// A region made ready.
+#[derive(Debug)]
+struct Graded {
+    overlap: Overlap,
+    target: Target,
+    /// How far from the region an element is too long, as a multiple of what it is longer than the target.
+    spread: f64,
 }
 
 impl SizeField {
     /// Checks the options and prepares them.
-    pub fn new(_input: &PolygonMesh, options: SizeOptions<'_>) -> Result<Self, SizingError> {
+    ///
+    /// # Errors
+    /// If an option or a region is out of range.
+    ///
+    /// # Panics
+    /// If `input` has node ids out of range.
+    pub fn new(input: &PolygonMesh, options: SizeOptions<'_>) -> Result<Self, SizingError> {
+        validate(&options)?;
+        let spread = if options.gradation < 2.0 { 1.0 / (options.gradation - 1.0) } else { 0.0 };
         Ok(Self {
-            edge_length: options.edge_length.unwrap_or(f64::INFINITY),
-            regions: options.regions.to_vec(),
+            edge_length: options.edge_length.map_or(f64::INFINITY, limit),
+            by_face: options.curvature.map_or(Vec::new(), |angle| limits_by_curvature(input, angle)),
+            regions: options.regions.iter().map(|region| Graded::new(region, spread)).collect(),
+            longest: (0..input.face_count())
+                .into_par_iter()
+                .map(|f| longest_child_edge(input, f))
+                .reduce(|| 0.0, f64::max),
         })
     }
 
-    /// True if no element of this level or deeper is to be refined, whatever its size and place.
+    /// True if no element of this level or deeper is to be refined, whatever its place.
+    ///
+    /// Edges of a quad's children are at most half as long as its longest edge, so below some level all
+    /// elements are shorter than every target.
     pub fn is_idle_from(&self, level: u8) -> bool {
-        self.edge_length.is_infinite()
-            && self.regions.iter().all(|r| matches!(r.target, Target::Level(l) if l <= level))
+        if level == 0 {
+            return self.edge_length.is_infinite()
+                && self.by_face.is_empty()
+                && self.regions.iter().all(|r| r.target == Target::Level(0));
+        }
+        let longest = self.longest * 0.5_f64.powi(i32::from(level) - 1) * (1.0 + 0.5 * ROUNDING);
+        longest <= self.edge_length
+            && self.by_face.iter().all(|&limit| longest <= limit)
+            && self.regions.iter().all(|r| match r.target {
+                Target::Size(size) => longest <= limit(size),
+                Target::Level(deepest) => deepest <= level,
+            })
     }
 
     /// True if the element is to be refined.
     pub fn wants(&self, element: &SizedElement) -> bool {
-        element.longest > self.edge_length
-            || self.regions.iter().any(|r| {
-                let near = match &r.shape {
-                    Shape::Sphere { center, radius } => {
-                        let mean = element.corners.iter().sum::<Point>() / 4.0;
-                        mean.distance(*center) < *radius + element.longest * 0.5
-                    }
-                    _ => false,
-                };
-                near && match r.target {
-                    Target::Size(s) => element.longest > s,
-                    Target::Level(l) => element.level < l,
-                }
-            })
+        if element.longest > self.edge_length
+            || self.by_face.get(element.root.index()).is_some_and(|&limit| element.longest > limit)
+        {
+            return true;
+        }
+        if self.regions.is_empty() {
+            return false;
+        }
+        let probe = Probe::new(element);
+        self.regions.iter().any(|region| region.wants(element, &probe))
     }
+}
+
+/// Midpoints are rounded, and so are the lengths between them: a tenth of an edge may come out longer than 0.1. An edge
+/// is longer than its target if it is so by more than this share.
+const ROUNDING: f64 = 1e-9;
+
+/// The greatest length that is not longer than `target`.
+fn limit(target: f64) -> f64 {
+    target * (1.0 + ROUNDING)
+}
+
+impl Graded {
+    fn new(region: &Region, spread: f64) -> Self {
+        Self { overlap: Overlap::new(&region.shape), target: region.target, spread }
+    }
+
+    fn wants(&self, element: &SizedElement, probe: &Probe) -> bool {
+        match self.target {
+            Target::Level(level) => element.level < level && self.overlap.is_met(probe, 0.0),
+            Target::Size(size) => {
+                element.longest > limit(size)
+                    && self.overlap.is_met(probe, (element.longest - size) * self.spread)
+            }
+        }
+    }
+}
+
+/// The edge length along which each face turns by `angle` degrees; empty if the surface is flat all over.
+fn limits_by_curvature(input: &PolygonMesh, angle: f64) -> Vec<f64> {
+    let mut turns = turn_per_length(input);
+    if turns.iter().all(|&turn| turn == 0.0) {
+        return Vec::new();
+    }
+    turns.iter_mut().for_each(|turn| *turn = limit(angle / *turn));
+    turns
+}
+
+/// The longest edge of the quads into which face `f` is split: half of its edges, or from their middles to the
+/// centre.
+fn longest_child_edge(input: &PolygonMesh, f: usize) -> f64 {
+    let points: Vec<Point> = input.face(f).iter().map(|n| input.positions[n.index()]).collect();
+    let center = points.iter().sum::<Point>() / points.len() as f64;
+    let next = points.iter().skip(1).chain(points.first());
+    let edges = points.iter().zip(next).map(|(&a, &b)| {
+        let middle = a.midpoint(b);
+        a.distance_squared(middle).max(middle.distance_squared(center))
+    });
+    edges.fold(0.0, f64::max).sqrt()
 }
