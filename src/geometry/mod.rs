@@ -1,17 +1,25 @@
-//! Points, boxes and distances in double precision. Knows no mesh.
+//! Points, boxes, distances and overlaps in double precision. Knows no mesh.
 
 mod aabb;
-mod nearest;
-mod solids;
-mod triangle;
-
-#[cfg(all(test, not(target_arch = "wasm32")))]
-mod testing;
+mod box_index;
+mod centered_box;
+mod centered_cylinder;
+mod closest;
+mod frame;
+mod gjk;
+mod quad_hull;
 
 pub use aabb::Aabb;
-pub use nearest::{NearestPoint, NearestTriangle};
-pub use solids::{Ball, Cylinder, OrientedBox};
-pub use triangle::{Triangle, closest_on_segment, segments_distance_squared};
+pub use box_index::BoxIndex;
+pub use centered_box::CenteredBox;
+pub use centered_cylinder::CenteredCylinder;
+pub use closest::{closest_on_segment, closest_on_triangle, segment_weights, triangle_weights};
+pub use frame::Frame;
+pub use gjk::{Convex, hull_within};
+pub use quad_hull::QuadHull;
 
 /// A point or vector in space, f64.
 pub type Point = glam::DVec3;
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+pub(crate) mod samples;

@@ -139,11 +139,7 @@ impl CellCollector {
     }
 
     /// The mesh over `positions`, with what the file says of its cells.
-    pub fn finish(
-        self,
-        positions: Vec<Point>,
-        attributes: CellAttributes,
-    ) -> Result<Document, ReadError> {
+    pub fn finish(self, positions: Vec<Point>, attributes: CellAttributes) -> Result<Document, ReadError> {
         if let Some(node) = positions.iter().position(|p| !p.is_finite()) {
             let message = format!(
                 "node {} has a coordinate that is NaN or infinite — correct it",

@@ -75,8 +75,8 @@ impl CellKind {
         ];
         const SOLIDS: [&str; 6] = ["C3D", "DC3D", "AC3D", "DCC3D", "SC", "CSS"];
         const NO_FACES: [&str; 16] = [
-            "T2D", "T3D", "B2", "B3", "PIPE", "ELBOW", "SAX", "R2D", "RAX", "RB", "MASS", "ROTARYI", "SPRING",
-            "DASHPOT", "CONN", "GAP",
+            "T2D", "T3D", "B2", "B3", "PIPE", "ELBOW", "SAX", "R2D", "RAX", "RB", "MASS", "ROTARYI",
+            "SPRING", "DASHPOT", "CONN", "GAP",
         ];
         let in_family = |families: &[&str], nodes: char| {
             families.iter().any(|family| {

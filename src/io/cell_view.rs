@@ -73,13 +73,8 @@ impl<'a> CellView<'a> {
             AnyMesh::Quads(mesh) => (&mesh.positions, Cells::Quads(&mesh.quads)),
             AnyMesh::Hexes(mesh) => (&mesh.positions, Cells::Hexes(&mesh.hexes)),
         };
-        let view = Self {
-            positions,
-            cells,
-            tags: &document.tags,
-            level: &document.level,
-            parent: &document.parent,
-        };
+        let view =
+            Self { positions, cells, tags: &document.tags, level: &document.level, parent: &document.parent };
         view.check().map_err(|(code, message)| refuse_writing(format, code, message))?;
         Ok(view)
     }
@@ -91,11 +86,15 @@ impl<'a> CellView<'a> {
             ("levels", self.level.len()),
             ("parents", self.parent.len()),
         ];
-        if let Some((what, length)) = columns.into_iter().find(|&(_, length)| length != 0 && length != count) {
+        if let Some((what, length)) = columns.into_iter().find(|&(_, length)| length != 0 && length != count)
+        {
             return Err((code::INCONSISTENT, format!("there are {length} {what} for {count} cells")));
         }
         if let Some(set) = self.tags.of_element.iter().find(|&&set| set as usize >= self.tags.sets.len()) {
-            return Err((code::INCONSISTENT, format!("a cell has tag set {set} of {}", self.tags.sets.len())));
+            return Err((
+                code::INCONSISTENT,
+                format!("a cell has tag set {set} of {}", self.tags.sets.len()),
+            ));
         }
         let nodes = self.positions.len();
         if let Some(node) = self.cells.corners().iter().find(|node| node.index() >= nodes) {

@@ -1,18 +1,19 @@
 //! Sizing: where a mesh is to be refined, and how far.
 //!
-//! [`Region`]s say what a user wants; a [`SizeField`] is made of them, the edge length and the input's
-//! curvature, and answers for each element whether it is to be refined. A caller's own
-//! [`SizeFunction`] stands beside it.
+//! A [`Region`] is a shape and what is wanted in it; a [`SizeField`] is made once of regions, a global edge length
+//! and a limit of curvature, and then tells of any number of elements, from any number of threads, whether each is
+//! to be refined.
 
 mod curvature;
 mod error;
 mod field;
-mod function;
-mod probe;
+mod json;
+mod overlap;
 mod region;
-mod zone;
 
 pub use error::{RegionFault, SizingError};
-pub use field::{Demand, SizeField, SizeOptions, SizedElement};
-pub use function::{SizeFunction, check_targets};
+pub use field::{SizeField, SizeOptions, SizedElement};
 pub use region::{Region, Shape, Target};
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests;

@@ -1,23 +1,29 @@
 //! Refinement regions: a shape in space and what is wanted inside it.
 
-use serde::{Deserialize, Serialize};
-
 use crate::geometry::Point;
 
 /// Elements that overlap `shape` are refined until they reach `target`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+///
+/// In JSON the keys of both stand side by side:
+///
+/// ```
+/// use hexmill::sizing::{Region, Target};
+/// let ball: Region = serde_json::from_str(r#"{"kind": "sphere", "center": [0, 0, 0], "radius": 1, "size": 0.1}"#)?;
+/// assert_eq!(ball.target, Target::Size(0.1));
+/// let error = serde_json::from_str::<Region>(r#"{"kind": "sphere", "center": [0, 0, 0], "radius": 1}"#).unwrap_err();
+/// assert!(error.to_string().starts_with("a sphere region needs 'size' or 'level'"));
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     /// Where.
-    #[serde(flatten)]
     pub shape: Shape,
     /// How far.
-    #[serde(flatten)]
     pub target: Target,
 }
 
 /// What a region asks of the elements in it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// No edge longer than this, in model units.
     Size(f64),
@@ -25,9 +31,11 @@ pub enum Target {
     Level(u8),
 }
 
-/// The shape of a region.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "camelCase")]
+/// The shape of a region, with its boundary.
+///
+/// A shape may have no thickness: a flat box, the points of a set with radius 0, a surface with distance 0. The
+/// elements that it lies in overlap it; if it lies in an edge, all elements at that edge do.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A box of any orientation: the box from `min` to `max`, turned about its centre.
     Box {
@@ -35,8 +43,7 @@ pub enum Shape {
         min: Point,
         /// Greatest corner before the turn.
         max: Point,
-        /// Unit quaternion x, y, z, w.
-        #[serde(default)]
+        /// Quaternion x, y, z, w, of any length but 0. In JSON it may be left out: no turn.
         rotation: glam::DQuat,
     },
     /// A ball.
@@ -46,7 +53,8 @@ pub enum Shape {
         /// Its radius.
         radius: f64,
     },
-    /// A capped cylinder of any axis.
+    /// A capped cylinder of any axis. Where both ends are one there is no axis: then the ball of that radius, which
+    /// is what discs of all directions fill.
     Cylinder {
         /// Centre of one cap.
         from: Point,
@@ -74,7 +82,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The name of the kind of shape, the same as `kind` in JSON.
+    /// The name of the kind of shape, as JSON has it.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Box { .. } => "box",

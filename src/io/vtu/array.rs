@@ -54,8 +54,7 @@ impl<'a> Decoder<'a> {
                 let data = data.get(offset..).ok_or_else(|| {
                     self.refuse(array, code::TRUNCATED, "starts after the end of the appended data")
                 })?;
-                let source =
-                    if base64 { Source::Base64(Base64Stream::new(data)) } else { Source::Raw(data) };
+                let source = if base64 { Source::Base64(Base64Stream::new(data)) } else { Source::Raw(data) };
                 self.binary(array, source)?
             }
         };
@@ -98,9 +97,11 @@ impl<'a> Decoder<'a> {
     /// The bytes of binary data: after their size, or in compressed blocks.
     fn binary(&self, array: &DataArray<'_>, mut source: Source<'_>) -> Result<Vec<u8>, ReadError> {
         let told = |error| match error {
-            StreamError::Ended => {
-                self.refuse(array, code::TRUNCATED, "has less data than it says — the file is cut short or damaged")
-            }
+            StreamError::Ended => self.refuse(
+                array,
+                code::TRUNCATED,
+                "has less data than it says — the file is cut short or damaged",
+            ),
             StreamError::NotBase64 => self.refuse(array, code::SYNTAX, "has data that are not base64"),
         };
         let size = self.sizes(&mut source, 1).map_err(told)?[0];
@@ -120,7 +121,11 @@ impl<'a> Decoder<'a> {
                 .ok()
                 .filter(|unpacked| unpacked.len() == expected)
                 .ok_or_else(|| {
-                    self.refuse(array, code::INCONSISTENT, "has a block that zlib cannot unpack to its size — the file is damaged")
+                    self.refuse(
+                        array,
+                        code::INCONSISTENT,
+                        "has a block that zlib cannot unpack to its size — the file is damaged",
+                    )
                 })?;
             data.extend_from_slice(&unpacked);
         }

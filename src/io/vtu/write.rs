@@ -23,7 +23,8 @@ const COMPRESSION_LEVEL: u8 = 1;
 pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     let view = CellView::new(document, Format::Vtu)?;
     let mut file = File::default();
-    file.header.word("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
+    file.header
+        .word("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
     file.header.word(if cfg!(target_endian = "big") { "BigEndian" } else { "LittleEndian" });
     file.header.word("\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n");
     if let Some(names) = names_to_json(view.tags) {

@@ -212,7 +212,8 @@ impl<'a> Parser<'a> {
             }
         };
         let rest = &self.bytes[end..];
-        let Some(underscore) = rest.iter().position(|b| !b.is_ascii_whitespace()).filter(|&i| rest[i] == b'_')
+        let Some(underscore) =
+            rest.iter().position(|b| !b.is_ascii_whitespace()).filter(|&i| rest[i] == b'_')
         else {
             let message = "the appended data do not begin with '_'";
             return Err(refuse_at(self.bytes, end, code::SYNTAX, message.into()));
@@ -231,8 +232,9 @@ fn parse_header<'a>(bytes: &[u8], element: &BytesStart<'_>, at: usize) -> Result
     let get = |name: &str| attribute(bytes, element, at, name);
     let kind = get("type")?.unwrap_or_default();
     if kind != "UnstructuredGrid" {
-        let message =
-            format!("the file holds '{kind}'; only UnstructuredGrid is read — convert it, in ParaView for instance");
+        let message = format!(
+            "the file holds '{kind}'; only UnstructuredGrid is read — convert it, in ParaView for instance"
+        );
         return Err(refuse_at(bytes, at, code::UNSUPPORTED_FEATURE, message));
     }
     let order = match get("byte_order")?.as_deref() {

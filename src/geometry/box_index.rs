@@ -1,0 +1,65 @@
+//! A spatial index over many axis-aligned boxes.
+
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::{Aabb, Point};
+
+type Entry = GeomWithData<Rectangle<[f64; 3]>, u32>;
+
+/// Finds, among many boxes, those that touch another one: an R-tree, packed once.
+#[derive(Debug)]
+pub struct BoxIndex {
+    tree: RTree<Entry>,
+}
+
+impl BoxIndex {
+    /// An index of `boxes`, numbered from 0. Empty boxes are never found.
+    ///
+    /// # Panics
+    /// If there are more than 2^32 boxes.
+    pub fn new(boxes: impl IntoIterator<Item = Aabb>) -> Self {
+        let entries = boxes.into_iter().enumerate().filter(|(_, b)| !b.is_empty()).map(|(i, b)| {
+            let number = u32::try_from(i).expect("more than 2^32 boxes");
+            Entry::new(Rectangle::from_corners(b.min.to_array(), b.max.to_array()), number)
+        });
+        Self { tree: RTree::bulk_load(entries.collect()) }
+    }
+
+    /// An index of `points`, numbered from 0.
+    pub fn of_points<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
+        Self::new(points.into_iter().map(|&p| Aabb { min: p, max: p }))
+    }
+
+    /// The numbers of the boxes that touch `query`, in no order that means anything.
+    pub fn touching(&self, query: &Aabb) -> impl Iterator<Item = usize> {
+        let envelope = AABB::from_corners(query.min.to_array(), query.max.to_array());
+        self.tree.locate_in_envelope_intersecting(envelope).map(|entry| entry.data as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_what_touches() {
+        let boxes = (0..100).map(|i| {
+            let min = Point::new(f64::from(i % 10), f64::from(i / 10), 0.0);
+            Aabb { min, max: min + Point::splat(0.5) }
+        });
+        let boxes: Vec<Aabb> = boxes.collect();
+        let index = BoxIndex::new(boxes.iter().copied());
+        for side in [0.0, 0.6, 3.0] {
+            for at in [-0.5, 0.25, 4.5, 9.5, 11.0] {
+                let query = Aabb { min: Point::splat(at), max: Point::splat(at + side) }
+                    .with(Point::new(at, at, 0.0));
+                let mut found: Vec<usize> = index.touching(&query).collect();
+                found.sort_unstable();
+                let expected: Vec<usize> = (0..100).filter(|&i| boxes[i].touches(&query)).collect();
+                assert_eq!(found, expected, "at {at}, side {side}");
+            }
+        }
+        assert_eq!(BoxIndex::new([Aabb::EMPTY]).touching(&boxes[0]).count(), 0);
+    }
+}

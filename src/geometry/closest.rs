@@ -1,0 +1,118 @@
+//! The closest points of segments and triangles, as weights of their ends.
+
+use super::Point;
+
+/// Twice a triangle's area below this share of the product of two of its edges: too thin for a normal, its
+/// edges stand for it. The error is that share of an edge, far below what coordinates can tell.
+const NEEDLE: f64 = 1e-12;
+
+/// The weights of `a` and `b` in the point of segment `ab` that is closest to `p`; from 0 to 1, their sum is 1.
+pub fn segment_weights(p: Point, [a, b]: [Point; 2]) -> [f64; 2] {
+    let along = b - a;
+    let squared = along.length_squared();
+    let t = if squared > 0.0 { ((p - a).dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+    [1.0 - t, t]
+}
+
+/// The weights of a triangle's corners in its point closest to `p`; from 0 to 1, their sum is 1. Works for
+/// triangles of no area too.
+///
+/// If `p` projects into the triangle, that is the point. Else it lies on one of the edges beyond which `p` is.
+pub fn triangle_weights(p: Point, [a, b, c]: [Point; 3]) -> [f64; 3] {
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let normal = ab.cross(ac);
+    let area = normal.length_squared();
+    let needle = area <= NEEDLE * NEEDLE * ab.length_squared() * ac.length_squared();
+    let wb = ap.cross(ac).dot(normal);
+    let wc = ab.cross(ap).dot(normal);
+    let wa = area - wb - wc;
+    if !needle && wa >= 0.0 && wb >= 0.0 && wc >= 0.0 {
+        let (wb, wc) = (wb / area, wc / area);
+        return [(1.0 - wb - wc).max(0.0), wb, wc];
+    }
+    let mut best = (f64::INFINITY, [1.0, 0.0, 0.0]);
+    let mut offer = |beyond: bool, ends: [Point; 2], weights: fn([f64; 2]) -> [f64; 3]| {
+        if beyond || needle {
+            let w = segment_weights(p, ends);
+            let distance = p.distance_squared(ends[0] * w[0] + ends[1] * w[1]);
+            if distance < best.0 {
+                best = (distance, weights(w));
+            }
+        }
+    };
+    offer(wc < 0.0, [a, b], |[a, b]| [a, b, 0.0]);
+    offer(wa < 0.0, [b, c], |[b, c]| [0.0, b, c]);
+    offer(wb < 0.0, [c, a], |[c, a]| [a, 0.0, c]);
+    best.1
+}
+
+/// The point of segment `ab` that is closest to `p`.
+pub fn closest_on_segment(p: Point, ends: [Point; 2]) -> Point {
+    let [wa, wb] = segment_weights(p, ends);
+    ends[0] * wa + ends[1] * wb
+}
+
+/// The point of the triangle that is closest to `p`.
+pub fn closest_on_triangle(p: Point, corners: [Point; 3]) -> Point {
+    let [wa, wb, wc] = triangle_weights(p, corners);
+    corners[0] * wa + corners[1] * wb + corners[2] * wc
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRIANGLE: [Point; 3] = [Point::ZERO, Point::X, Point::Y];
+
+    #[test]
+    fn each_part_of_a_triangle_answers_for_its_side() {
+        let cases = [
+            ([0.25, 0.25, 3.0], [0.25, 0.25, 0.0]), // inside
+            ([-1.0, -1.0, 1.0], [0.0, 0.0, 0.0]),   // corners
+            ([3.0, -1.0, 0.0], [1.0, 0.0, 0.0]),
+            ([-1.0, 3.0, 0.0], [0.0, 1.0, 0.0]),
+            ([0.5, -2.0, 1.0], [0.5, 0.0, 0.0]), // edges
+            ([-2.0, 0.5, 1.0], [0.0, 0.5, 0.0]),
+            ([1.0, 1.0, -1.0], [0.5, 0.5, 0.0]),
+        ];
+        for (p, expected) in cases {
+            assert_eq!(closest_on_triangle(p.into(), TRIANGLE), expected.into(), "from {p:?}");
+        }
+    }
+
+    #[test]
+    fn triangles_of_no_area_are_segments_and_points() {
+        let line = [Point::ZERO, Point::X * 4.0, Point::X];
+        assert_eq!(closest_on_triangle(Point::new(3.0, 1.0, 0.0), line), Point::X * 3.0);
+        assert_eq!(closest_on_triangle(Point::new(9.0, 1.0, 0.0), line), Point::X * 4.0);
+        assert_eq!(closest_on_triangle(Point::Z, [Point::X; 3]), Point::X);
+        assert_eq!(closest_on_segment(Point::Z, [Point::X; 2]), Point::X);
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    mod random {
+        use proptest::prelude::*;
+
+        use super::*;
+        use crate::geometry::samples::{of_triangle, point, points};
+
+        proptest! {
+            #[test]
+            fn no_sample_is_closer(p in point(3.0), corners in points::<3>(2.0)) {
+                let found = closest_on_triangle(p, corners).distance(p);
+                let sampled = of_triangle(corners, 24).map(|s| s.distance(p)).fold(f64::INFINITY, f64::min);
+                prop_assert!(found <= sampled + 1e-12);
+                prop_assert!(sampled <= found + 4.0 / 12.0, "the samples are dense");
+            }
+
+            #[test]
+            fn the_gap_stands_on_the_triangle(p in point(3.0), corners in points::<3>(2.0)) {
+                // All of the triangle lies behind the plane through the closest point, perpendicular to the gap.
+                let closest = closest_on_triangle(p, corners);
+                for corner in corners {
+                    prop_assert!((corner - closest).dot(p - closest) <= 1e-9);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Whether an element and a region's shape overlap by more than a touch.
+//!
+//! **Rule.** Shrink the element towards the mean of its corners by [`TOUCH`]. The element overlaps the shape if the
+//! rest of it meets the shape, its boundary included. So
+//! - an element that a region's face, edge or curve only touches from outside along its own edge is left alone,
+//! - an element that lies in a region's face overlaps it (the box from the plane of a planar mesh upwards),
+//! - a shape in the element's interior overlaps it, however small, even if it is near none of its corners and edges.
+//!
+//! **Shapes of no thickness.** Each extent of a shape (half edges of a box, radius and half length of a cylinder, the
+//! radius about points, the distance from a surface) counts as at least what the element was shrunk by. So a flat box,
+//! a point or a surface refines the elements that it lies in; one that lies in an edge refines all elements at it.
+//!
+//! **Elements** are the hulls of their corners (`geometry::QuadHull`): for quads that are not flat those of both
+//! diagonals and what is between them.
+//!
+//! **Grading.** The distance of element and shape is asked for in the same way: the element meets the shape grown
+//! by `reach`.
+
+use glam::DQuat;
+
+use super::{Shape, SizedElement};
+use crate::geometry::{
+    Aabb, BoxIndex, CenteredBox, CenteredCylinder, Convex, Frame, Point, QuadHull, hull_within,
+};
+
+/// An overlap thinner than this share of an element's width is a touch: regions and nodes are often given with four
+/// or five digits, and an edge that is meant to lie on a region's face then misses it by that much.
+pub(super) const TOUCH: f64 = 1e-4;
+
+/// An element that lies in a region's face up to this share of its size lies in the region: what rounding leaves of
+/// a plane. Far less than [`TOUCH`], so that a touch remains one on elements a thousand times as long as wide.
+const COINCIDENT: f64 = 1e-8;
+
+/// What every shape wants to know of an element.
+pub(super) struct Probe {
+    corners: [Point; 4],
+    bounds: Aabb,
+    /// The mean of the corners; shrinking does not move it.
+    middle: Point,
+    /// The greatest distance of a corner from the middle.
+    radius: f64,
+}
+
+impl Probe {
+    pub(super) fn new(element: &SizedElement) -> Self {
+        let corners = element.corners;
+        let middle = (corners[0] + corners[1] + (corners[2] + corners[3])) * 0.25;
+        let squared = corners.iter().fold(0.0, |m: f64, c| m.max(c.distance_squared(middle)));
+        Self { corners, bounds: Aabb::around(&corners), middle, radius: squared.sqrt() }
+    }
+
+    fn shrunk(&self) -> QuadHull {
+        QuadHull::new(self.corners.map(|c| c + (self.middle - c) * TOUCH))
+    }
+
+    /// The least extent that a shape has for this element.
+    fn least_extent(&self) -> f64 {
+        (TOUCH + COINCIDENT) * self.radius
+    }
+
+    fn coincident(&self) -> f64 {
+        COINCIDENT * self.radius
+    }
+}
+
+/// A shape made ready.
+#[derive(Debug)]
+pub(super) struct Overlap {
+    /// Around the shape.
+    bounds: Aabb,
+    shape: Prepared,
+}
+
+#[derive(Debug)]
+enum Prepared {
+    Box { frame: Frame, half: Point },
+    Ball { center: Point, radius: f64 },
+    Cylinder { frame: Frame, radius: f64, half_length: f64 },
+    Points { points: Vec<Point>, index: BoxIndex, radius: f64 },
+    Surface { triangles: Vec<[Point; 3]>, index: BoxIndex, distance: f64 },
+}
+
+impl Overlap {
+    /// Prepares a shape that has been found valid.
+    pub(super) fn new(shape: &Shape) -> Self {
+        match shape {
+            Shape::Box { min, max, rotation } => Self::of_box(*min, *max, *rotation),
+            Shape::Sphere { center, radius } => Self::of_ball(*center, *radius),
+            Shape::Cylinder { from, to, radius } => Self::of_cylinder(*from, *to, *radius),
+            Shape::Points { points, radius } => Self {
+                bounds: Aabb::around(points).grown(*radius),
+                shape: Prepared::Points {
+                    index: BoxIndex::of_points(points),
+                    points: points.clone(),
+                    radius: *radius,
+                },
+            },
+            Shape::Surface { positions, triangles, distance } => {
+                let triangles: Vec<[Point; 3]> =
+                    triangles.iter().map(|t| t.map(|n| positions[n as usize])).collect();
+                Self {
+                    bounds: Aabb::around(triangles.as_flattened()).grown(*distance),
+                    shape: Prepared::Surface {
+                        index: BoxIndex::new(triangles.iter().map(Aabb::around)),
+                        triangles,
+                        distance: *distance,
+                    },
+                }
+            }
+        }
+    }
+
+    fn of_box(min: Point, max: Point, rotation: DQuat) -> Self {
+        let frame = Frame::new(min.midpoint(max), unit(rotation));
+        let half = max * 0.5 - min * 0.5;
+        let around = frame.world_half(half);
+        let bounds = Aabb { min: frame.origin() - around, max: frame.origin() + around };
+        Self { bounds, shape: Prepared::Box { frame, half } }
+    }
+
+    fn of_ball(center: Point, radius: f64) -> Self {
+        let bounds = Aabb { min: center, max: center }.grown(radius);
+        Self { bounds, shape: Prepared::Ball { center, radius } }
+    }
+
+    fn of_cylinder(from: Point, to: Point, radius: f64) -> Self {
+        let Some(axis) = (to - from).try_normalize() else { return Self::of_ball(from, radius) };
+        let frame = Frame::along(from.midpoint(to), axis);
+        // A disc reaches along a coordinate axis as far as the sine of the angle between that and its own axis.
+        let disc = (Point::ONE - axis * axis).max(Point::ZERO).map(f64::sqrt) * radius;
+        let ends = Aabb::around(&[from, to]);
+        let bounds = Aabb { min: ends.min - disc, max: ends.max + disc };
+        Self { bounds, shape: Prepared::Cylinder { frame, radius, half_length: from.distance(to) * 0.5 } }
+    }
+
+    /// True if the element overlaps the shape by more than a touch, or is nearer to it than `reach`.
+    pub(super) fn is_met(&self, element: &Probe, reach: f64) -> bool {
+        let grown = reach + element.least_extent();
+        self.bounds.grown(grown).touches(&element.bounds) && self.shape.is_met(element, reach)
+    }
+}
+
+impl Prepared {
+    fn is_met(&self, element: &Probe, reach: f64) -> bool {
+        let (least, coincident) = (element.least_extent(), element.coincident());
+        match self {
+            Self::Box { frame, half } => {
+                let half = half.max(Point::splat(least)) + Point::splat(coincident);
+                let body = CenteredBox { half };
+                let middle = frame.local(element.middle);
+                let meets = |hull: &QuadHull| body.meets(hull);
+                body.holds(middle)
+                    || CenteredBox { half: half + Point::splat(reach + element.radius) }.holds(middle)
+                        && is_met_or_near(frame, element, &body, meets, reach)
+            }
+            Self::Cylinder { frame, radius, half_length } => {
+                let radius = radius.max(least) + coincident;
+                let half_length = half_length.max(least) + coincident;
+                let body = CenteredCylinder { radius, half_length };
+                let middle = frame.local(element.middle);
+                let far = reach + element.radius;
+                let meets = |hull: &QuadHull| body.meets(hull);
+                body.holds(middle)
+                    || CenteredCylinder { radius: radius + far, half_length: half_length + far }.holds(middle)
+                        && is_met_or_near(frame, element, &body, meets, reach)
+            }
+            Self::Ball { center, radius } => {
+                is_near(element, *center, radius.max(least) + coincident + reach)
+            }
+            Self::Points { points, index, radius } => {
+                let distance = radius.max(least) + coincident + reach;
+                index.touching(&element.bounds.grown(distance)).any(|i| is_near(element, points[i], distance))
+            }
+            Self::Surface { triangles, index, distance } => {
+                let distance = distance.max(least) + coincident + reach;
+                let hull = element.shrunk();
+                let near = |i: usize| hull_within(&hull.corners, &triangles[i], distance);
+                index.touching(&element.bounds.grown(distance)).any(near)
+            }
+        }
+    }
+}
+
+/// Asks exactly, in the shape's frame.
+fn is_met_or_near(
+    frame: &Frame,
+    element: &Probe,
+    body: &impl Convex,
+    meets: impl Fn(&QuadHull) -> bool,
+    reach: f64,
+) -> bool {
+    let hull = element.shrunk().map(|p| frame.local(p));
+    if reach > 0.0 { hull_within(&hull.corners, body, reach) } else { meets(&hull) }
+}
+
+/// True if the shrunk element comes as near to `p` as `distance`: told by its middle or its circle if they can.
+fn is_near(element: &Probe, p: Point, distance: f64) -> bool {
+    let squared = element.middle.distance_squared(p);
+    let far = distance + element.radius;
+    squared <= distance * distance || squared <= far * far && element.shrunk().within(p, distance)
+}
+
+/// The rotation that a quaternion of any length but 0 stands for.
+fn unit(rotation: DQuat) -> DQuat {
+    let largest = rotation.to_array().into_iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    (rotation * (1.0 / largest)).normalize()
+}
