@@ -3,6 +3,7 @@
 mod estimate;
 mod exhaustive;
 mod judge;
+mod models;
 mod random;
 mod results;
 mod worlds;
