@@ -1,5 +1,6 @@
 //! What a file holds, whatever its format.
 
+use crate::geometry::Point;
 use crate::mesh::{FaceId, HexMesh, PolygonMesh, QuadMesh, Tags};
 use crate::refine::RefinedQuads;
 
@@ -15,13 +16,18 @@ pub enum AnyMesh {
 }
 
 impl AnyMesh {
+    /// Coordinates of the nodes.
+    pub fn positions(&self) -> &[Point] {
+        match self {
+            Self::Polygons(mesh) => &mesh.positions,
+            Self::Quads(mesh) => &mesh.positions,
+            Self::Hexes(mesh) => &mesh.positions,
+        }
+    }
+
     /// Number of nodes.
     pub fn node_count(&self) -> usize {
-        match self {
-            Self::Polygons(mesh) => mesh.positions.len(),
-            Self::Quads(mesh) => mesh.positions.len(),
-            Self::Hexes(mesh) => mesh.positions.len(),
-        }
+        self.positions().len()
     }
 
     /// Number of cells: faces or hexes.

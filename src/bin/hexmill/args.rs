@@ -1,0 +1,175 @@
+//! The command line's options, with their help.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::region::RegionArg;
+
+/// Conforming quad meshes from polygon surfaces.
+///
+/// The format of a file is told by its extension: obj, vtu, vtk, msh, inp, mesh (MEDIT), glb (output only).
+///
+/// Exit codes: 0 done; 1 a file or mesh was refused; 2 the command line makes no sense; 130 interrupted.
+#[derive(Debug, Parser)]
+#[command(name = "hexmill", version, max_term_width = 100)]
+pub(crate) struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+
+    /// Print nothing but errors
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Refine a surface to a conforming quad mesh
+    #[command(after_long_help = REFINE_EXAMPLES)]
+    Refine(RefineArgs),
+    /// Say what is wrong with a mesh, and how good it is
+    #[command(after_long_help = CHECK_EXAMPLES)]
+    Check(CheckArgs),
+    /// Write a mesh in another format
+    #[command(after_long_help = CONVERT_EXAMPLES)]
+    Convert(ConvertArgs),
+}
+
+const REFINE_EXAMPLES: &str = "\
+Examples:
+  No edge longer than 2 model units, for ParaView:
+    hexmill refine part.obj -o part.vtu --edge-length 2
+
+  Twice finer everywhere, whatever the size (each level halves the edges):
+    hexmill refine part.obj -o fine.obj --levels 1
+
+  Edges of 5, but of 0.5 in a ball of radius 10 around the origin:
+    hexmill refine part.obj -o part.vtu --edge-length 5 --region sphere:0,0,0,10:h=0.5
+
+  Three levels in a box, four along a bore, everything else as coarse as it gets:
+    hexmill refine part.obj -o part.msh \\
+      --region box:0,0,0,10,10,5:level=3 --region cylinder:5,5,-1,5,5,6,2:level=4
+
+  A box turned by 30 degrees about z (about x, then y, then z, through its centre):
+    hexmill refine part.obj -o part.vtu --region box:0,0,0,10,2,2,0,0,30:h=0.2
+
+  Near the nodes of one mesh and within 1.5 of the surface of another:
+    hexmill refine part.obj -o part.vtu --region points:probes.obj,0.5:level=4 \\
+      --region surface:shock.obj,1.5:h=0.25
+
+  Follow curvature, ten degrees an edge, and keep a record:
+    hexmill refine part.obj -o part.vtu --curvature 10 --report part.json
+
+Regions are KIND:NUMBERS:h=SIZE (no edge longer than SIZE in it) or KIND:NUMBERS:level=N (N levels
+deep; the input is level 0):
+  box:x0,y0,z0,x1,y1,z1              from corner to corner
+  box:x0,y0,z0,x1,y1,z1,ax,ay,az     turned about x, y and z (fixed axes, degrees, in this order)
+  box:x0,y0,z0,x1,y1,z1,qx,qy,qz,qw  turned by a quaternion
+  sphere:cx,cy,cz,r
+  cylinder:ax,ay,az,bx,by,bz,r       capped, from a to b
+  points:FILE,r                      within r of a node of FILE
+  surface:FILE,d                     within d of a face of FILE";
+
+const CHECK_EXAMPLES: &str = "\
+Exit code 1 if the mesh is not conforming (repeated or hanging nodes, faces twice, ...). Open borders,
+non-manifold edges and the like are noted, but are no reason to refuse.
+
+Examples:
+  hexmill check part.vtu
+  hexmill check part.vtu --surface part.obj      how far the mesh and the surface are from each other
+  hexmill check part.vtu --report part.json      everything, as JSON";
+
+const CONVERT_EXAMPLES: &str = "\
+Examples:
+  hexmill convert part.obj -o part.vtu
+  hexmill convert part.mesh -o part.inp";
+
+/// `hexmill refine`.
+#[derive(Args, Debug)]
+pub(crate) struct RefineArgs {
+    /// The surface: triangles, quads and polygons in any mixture
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Where to write the mesh
+    #[arg(long, short, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+
+    /// No edge longer than this, in model units
+    #[arg(long, short = 'e', value_name = "L", value_parser = positive)]
+    pub(crate) edge_length: Option<f64>,
+
+    /// Where to refine further, as KIND:NUMBERS:h=SIZE or KIND:NUMBERS:level=N; may be given many times
+    #[arg(long = "region", short = 'r', value_name = "REGION", value_parser = crate::region::parse)]
+    pub(crate) regions: Vec<RegionArg>,
+
+    /// Refine everything at least this many times
+    #[arg(long, short, value_name = "N")]
+    pub(crate) levels: Option<u8>,
+
+    /// Turn of the surface's normal that one edge may span, in degrees
+    #[arg(long, value_name = "DEG", value_parser = positive)]
+    pub(crate) curvature: Option<f64>,
+
+    /// How much larger an element may be than its neighbour, more than 1 and at most 2
+    #[arg(long, value_name = "G", value_parser = positive)]
+    pub(crate) gradation: Option<f64>,
+
+    /// Leave untouched quads as they are (all-quad input whose nodes can be two-coloured)
+    #[arg(long)]
+    pub(crate) keep_coarse: bool,
+
+    /// Refine no element more often than this [default: 12]
+    #[arg(long, value_name = "N")]
+    pub(crate) max_levels: Option<u8>,
+
+    /// Refuse to make more quads than this [default: 64000000]
+    #[arg(long, value_name = "N")]
+    pub(crate) max_quads: Option<u64>,
+
+    /// Threads to use [default: one a core]; the result does not depend on it
+    #[arg(long, short = 'j', value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+
+    /// Where to write a record of the work as JSON (see docs/report.md)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+}
+
+/// `hexmill check`.
+#[derive(Args, Debug)]
+pub(crate) struct CheckArgs {
+    /// The mesh
+    #[arg(value_name = "MESH")]
+    pub(crate) mesh: PathBuf,
+
+    /// A surface to measure the distance from and to
+    #[arg(long, value_name = "SURFACE")]
+    pub(crate) surface: Option<PathBuf>,
+
+    /// Where to write everything found as JSON (see docs/report.md)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+}
+
+/// `hexmill convert`.
+#[derive(Args, Debug)]
+pub(crate) struct ConvertArgs {
+    /// The mesh
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Where to write it
+    #[arg(long, short, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+}
+
+/// A finite number above zero.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("give a number above 0".to_owned()),
+    }
+}

@@ -1,0 +1,88 @@
+//! `hexmill check`.
+
+use hexmill::io::{AnyMesh, Document};
+use hexmill::mesh::PolygonMesh;
+
+use crate::args::CheckArgs;
+use crate::distance::{Distances, Triangles};
+use crate::failure::Failure;
+use crate::files::load;
+use crate::progress::Progress;
+use crate::region::{load_triangles, triangles_of};
+use crate::report::{InputReport, MeshReport, Report, peak_memory_bytes, quality_table};
+
+/// Reads a mesh, looks it over and tells; refuses a mesh that does not conform.
+pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
+    let progress = Progress::new(quiet);
+    let mut loaded = progress.stage("read", || load(&args.mesh))?;
+    let empty = Document::from(PolygonMesh::default());
+    let mut document = std::mem::replace(&mut loaded.document, empty);
+    if matches!(document.mesh, AnyMesh::Hexes(_)) {
+        let message = format!("{}: holds hexes; give a surface of polygons to check", args.mesh.display());
+        return Err(Failure::refused("surface-needed", message));
+    }
+    let level = std::mem::take(&mut document.level);
+    let surface = document.into_surface().expect("hexes were refused above");
+    let mesh = progress.stage("check", || MeshReport::of_polygons(&surface, &level));
+    let mut report = Report::new("check", InputReport::new(&loaded, &surface), mesh);
+    report.distance = match &args.surface {
+        Some(path) => {
+            let (positions, triangles) = progress.stage("read", || load_triangles(path))?;
+            let other = Triangles { positions, triangles };
+            let triangles = triangles_of(&surface, &args.mesh)?;
+            let mesh = Triangles { positions: surface.positions, triangles };
+            Some(progress.stage("distance", || Distances::between(&mesh, &other)))
+        }
+        None => None,
+    };
+    (report.stages, report.seconds) = progress.finish();
+    report.peak_memory_bytes = peak_memory_bytes();
+    if !quiet {
+        print!("{}", in_words(args, &report));
+    }
+    if let Some(path) = &args.report {
+        report.save(path)?;
+    }
+    verdict(args, &report)
+}
+
+/// Refuses a mesh that does not conform.
+fn verdict(args: &CheckArgs, report: &Report) -> Result<(), Failure> {
+    let defects = &report.mesh.defects;
+    let Some(worst) = defects.counts.first().filter(|_| !defects.conforming) else { return Ok(()) };
+    let message = format!("{}: is not a conforming mesh: {worst}; mend the mesh", args.mesh.display());
+    Err(Failure::refused("mesh-not-conforming", message))
+}
+
+fn in_words(args: &CheckArgs, report: &Report) -> String {
+    let mesh = &report.mesh;
+    let mut lines = vec![format!("{}: {}", args.mesh.display(), mesh.counts.in_words())];
+    if let Some(t) = &mesh.topology {
+        lines.push(format!(
+            "  components {}, boundary loops {} ({} edges), Euler number {}, {}, {}",
+            t.components,
+            t.boundary_loops,
+            t.boundary_edges,
+            t.euler,
+            if t.is_manifold() { "manifold" } else { "not manifold" },
+            if t.orientable { "orientable" } else { "not orientable" },
+        ));
+    }
+    lines.extend(mesh.quality.as_ref().map(quality_table));
+    for defect in &mesh.defects.counts {
+        let severity = match defect.severity {
+            hexmill::mesh::check::Severity::Error => "error",
+            hexmill::mesh::check::Severity::Note => "note",
+        };
+        lines.push(format!("  {severity}: {defect}"));
+    }
+    if mesh.defects.counts.is_empty() {
+        lines.push("  no defects".to_owned());
+    }
+    if let Some(distance) = &report.distance {
+        lines.push(format!("  distance to the surface: {}", distance.mesh_to_surface.in_words()));
+        lines.push(format!("  distance from the surface: {}", distance.surface_to_mesh.in_words()));
+    }
+    lines.extend(mesh.hash.map(|hash| format!("  hash {hash}")));
+    lines.join("\n") + "\n"
+}

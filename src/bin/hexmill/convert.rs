@@ -1,0 +1,25 @@
+//! `hexmill convert`.
+
+use hexmill::io;
+
+use crate::args::ConvertArgs;
+use crate::failure::Failure;
+use crate::files::{format_of, load, save};
+use crate::progress::Progress;
+
+/// Reads a mesh and writes it in another format.
+pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {
+    let format = format_of(&args.output)?;
+    let progress = Progress::new(quiet);
+    let document = progress.stage("read", || load(&args.input))?.document;
+    let bytes = progress
+        .stage("encode", || io::write(&document, format))
+        .map_err(|e| Failure::write(&args.output, &e))?;
+    progress.stage("write", || save(&args.output, &bytes))?;
+    progress.finish();
+    if !quiet {
+        let (nodes, cells) = (document.mesh.node_count(), document.mesh.cell_count());
+        println!("{}: {nodes} nodes, {cells} cells, {} bytes", args.output.display(), bytes.len());
+    }
+    Ok(())
+}

@@ -1,0 +1,97 @@
+//! Reading meshes from files, and writing files whole or not at all.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use hexmill::io::{self, Document, Format};
+
+use crate::failure::Failure;
+
+/// The temporary file that is being written, which an interruption removes.
+static UNFINISHED: Mutex<Option<PathBuf>> = Mutex::new(None);
+
+/// The exit code of a program that Ctrl-C ended, as shells have it: 128 + SIGINT.
+const INTERRUPTED: i32 = 130;
+
+/// Makes Ctrl-C (and a request to terminate) remove what is half written before it ends the program.
+pub(crate) fn remove_unfinished_when_interrupted() {
+    let stop = || {
+        let unfinished = UNFINISHED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        if let Some(path) = unfinished.as_ref() {
+            // It may be gone already; there is nobody left to tell.
+            let _ = fs::remove_file(path);
+        }
+        eprintln!("interrupted: nothing was written");
+        // The lock is still held, so that no output is renamed into place between here and the end.
+        std::process::exit(INTERRUPTED);
+    };
+    if let Err(error) = ctrlc::set_handler(stop) {
+        eprintln!("warning: Ctrl-C may leave temporary files behind: {error}");
+    }
+}
+
+/// The format that the extension of `path` names.
+pub(crate) fn format_of(path: &Path) -> Result<Format, Failure> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+    Format::from_extension(extension).ok_or_else(|| {
+        let known: Vec<String> = Format::ALL.iter().map(|f| format!(".{f}")).collect();
+        Failure::Usage(format!(
+            "{}: the extension names no mesh format; use one of {}",
+            path.display(),
+            known.join(", ")
+        ))
+    })
+}
+
+/// A mesh and the file that it came from.
+pub(crate) struct Loaded {
+    pub(crate) path: PathBuf,
+    pub(crate) format: Format,
+    pub(crate) bytes: u64,
+    pub(crate) document: Document,
+}
+
+/// Reads the mesh in `path`.
+pub(crate) fn load(path: &Path) -> Result<Loaded, Failure> {
+    let format = format_of(path)?;
+    let bytes = fs::read(path).map_err(|error| Failure::file("file-not-read", "read", path, &error))?;
+    let document = io::read(&bytes, format).map_err(|error| Failure::read(path, &error))?;
+    Ok(Loaded { path: path.to_owned(), format, bytes: bytes.len() as u64, document })
+}
+
+/// Writes `bytes` to `path`: first to a temporary file beside it, which then takes its place, so that
+/// `path` never holds half of them.
+pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed = |error| Failure::file("file-not-written", "written", path, &error);
+    // Through a link to the file it names; pipes and devices cannot be replaced and are written to.
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    if target.exists() && !target.is_file() {
+        return fs::write(&target, bytes).map_err(failed);
+    }
+    let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = temporary_file(folder).map_err(failed)?;
+    set_unfinished(Some(file.path().to_owned()));
+    let written = file.write_all(bytes).and_then(|()| file.as_file().sync_all());
+    let mut unfinished = UNFINISHED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let done = written.and_then(|()| file.persist(&target).map(drop).map_err(|e| e.error));
+    *unfinished = None;
+    done.map_err(failed)
+}
+
+fn set_unfinished(path: Option<PathBuf>) {
+    *UNFINISHED.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = path;
+}
+
+/// A new file in `folder` that others may read as they may read any new file.
+fn temporary_file(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".hexmill-").suffix(".part");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}

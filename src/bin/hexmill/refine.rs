@@ -1,0 +1,112 @@
+//! `hexmill refine`.
+
+use hexmill::io::{self, AnyMesh, Document};
+use hexmill::mesh::PolygonMesh;
+use hexmill::refine::{QuadOptions, refine_quads};
+
+use crate::args::RefineArgs;
+use crate::failure::Failure;
+use crate::files::{format_of, load, save};
+use crate::progress::Progress;
+use crate::report::{FileReport, InputReport, MeshReport, OptionsReport, Report, peak_memory_bytes};
+
+/// Reads, refines, writes and reports.
+pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
+    let output_format = format_of(&args.output)?;
+    format_of(&args.input)?;
+    use_threads(args.threads)?;
+    let progress = Progress::new(quiet);
+
+    let mut loaded = progress.stage("read", || load(&args.input))?;
+    let empty = Document::from(PolygonMesh::default());
+    let surface = std::mem::replace(&mut loaded.document, empty).into_surface().ok_or_else(|| {
+        let message = format!("{}: holds hexes; give a surface of polygons to refine", args.input.display());
+        Failure::refused("surface-needed", message)
+    })?;
+    let input = InputReport::new(&loaded, &surface);
+    let options = options(args)?;
+    let refined =
+        refine_quads(&surface, &options, &progress).map_err(|e| Failure::refine(&args.input, &e))?;
+    drop(surface);
+    let capped = refined.capped;
+    let document = Document::from(refined);
+
+    let bytes = progress
+        .stage("encode", || io::write(&document, output_format))
+        .map_err(|e| Failure::write(&args.output, &e))?;
+    progress.stage("write", || save(&args.output, &bytes))?;
+    let output = FileReport::new(&args.output, output_format, bytes.len() as u64);
+    drop(bytes);
+
+    let AnyMesh::Quads(mesh) = &document.mesh else { unreachable!("refinement makes quads") };
+    let mesh = progress.stage("check", || MeshReport::of_quads(mesh, &document.level, capped));
+    let mut report = Report::new("refine", input, mesh);
+    report.options = Some(options_report(args, &options));
+    report.output = Some(output);
+    (report.stages, report.seconds) = progress.finish();
+    report.peak_memory_bytes = peak_memory_bytes();
+    if !quiet {
+        print!("{}", in_words(args, &report));
+    }
+    args.report.as_deref().map_or(Ok(()), |path| report.save(path))
+}
+
+/// Makes the library's work run on `threads` threads.
+fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|error| {
+        Failure::refused(
+            "threads-not-started",
+            format!("{threads} threads cannot be started: {error}; give fewer"),
+        )
+    })
+}
+
+fn options(args: &RefineArgs) -> Result<QuadOptions, Failure> {
+    let default = QuadOptions::default();
+    Ok(QuadOptions {
+        edge_length: args.edge_length,
+        levels: args.levels,
+        regions: args.regions.iter().map(|region| region.load()).collect::<Result<_, _>>()?,
+        curvature: args.curvature,
+        gradation: args.gradation.unwrap_or(default.gradation),
+        keep_coarse: args.keep_coarse,
+        max_levels: args.max_levels.unwrap_or(default.max_levels),
+        max_quads: args.max_quads.unwrap_or(default.max_quads),
+    })
+}
+
+/// The options, with regions as they were given: their files may be large.
+fn options_report(args: &RefineArgs, options: &QuadOptions) -> OptionsReport {
+    OptionsReport {
+        edge_length: options.edge_length,
+        levels: options.levels,
+        regions: args.regions.iter().map(|region| region.text.clone()).collect(),
+        curvature: options.curvature,
+        gradation: options.gradation,
+        keep_coarse: options.keep_coarse,
+        max_levels: options.max_levels,
+        max_quads: options.max_quads,
+    }
+}
+
+fn in_words(args: &RefineArgs, report: &Report) -> String {
+    let mesh = &report.mesh;
+    let levels: Vec<String> =
+        mesh.levels.iter().map(|count| format!("{} of level {}", count.cells, count.level)).collect();
+    let mut lines = vec![
+        format!("{}: {}", args.output.display(), mesh.counts.in_words()),
+        format!("  {}", levels.join(", ")),
+    ];
+    if mesh.capped > 0 {
+        lines.push(format!(
+            "  {} elements are larger than asked for: raise --max-levels, now {}",
+            mesh.capped,
+            report.options.as_ref().map_or(0, |o| o.max_levels)
+        ));
+    }
+    lines.extend(mesh.quality.as_ref().map(crate::report::quality_table));
+    lines.extend(mesh.defects.counts.iter().map(|defect| format!("  note: {defect}")));
+    lines.extend(mesh.hash.map(|hash| format!("  hash {hash}, {:.2} s", report.seconds)));
+    lines.join("\n") + "\n"
+}

@@ -1,0 +1,285 @@
+//! The record of a command as JSON, documented in `docs/report.md`, and its lines for people.
+
+use std::path::Path;
+
+use hexmill::geometry::Aabb;
+use hexmill::io::Format;
+use hexmill::mesh::check::{DefectCount, summary};
+use hexmill::mesh::quality::{Distribution, QualityReport, quad_quality};
+use hexmill::mesh::topology::{SurfaceReport, surface_report};
+use hexmill::mesh::{
+    Defect, Edges, MeshHash, NodeId, PolygonMesh, QuadMesh, check_polygons, check_quads, mesh_hash,
+};
+use serde::Serialize;
+
+use crate::distance::Distances;
+use crate::failure::Failure;
+use crate::files::{Loaded, save};
+use crate::progress::StageSeconds;
+
+/// The version of the record's form. Fields may be added within a version, but not changed or removed.
+const SCHEMA: &str = "hexmill-report/1";
+
+/// Defects that are listed one by one; all of them are counted.
+const LISTED_DEFECTS: usize = 1000;
+
+/// The record of a command.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Report {
+    pub(crate) schema: &'static str,
+    pub(crate) version: &'static str,
+    pub(crate) command: &'static str,
+    pub(crate) input: InputReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) options: Option<OptionsReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) output: Option<FileReport>,
+    pub(crate) mesh: MeshReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) distance: Option<Distances>,
+    pub(crate) threads: usize,
+    pub(crate) stages: Vec<StageSeconds>,
+    pub(crate) seconds: f64,
+    pub(crate) peak_memory_bytes: Option<u64>,
+}
+
+impl Report {
+    /// A record of what `command` made of `input`, with its times still to be filled in.
+    pub(crate) fn new(command: &'static str, input: InputReport, mesh: MeshReport) -> Self {
+        Self {
+            schema: SCHEMA,
+            version: env!("CARGO_PKG_VERSION"),
+            command,
+            input,
+            options: None,
+            output: None,
+            mesh,
+            distance: None,
+            threads: rayon::current_num_threads(),
+            stages: Vec::new(),
+            seconds: 0.0,
+            peak_memory_bytes: None,
+        }
+    }
+
+    /// Writes the record to `path`.
+    pub(crate) fn save(&self, path: &Path) -> Result<(), Failure> {
+        let mut text = serde_json::to_vec_pretty(self).expect("a report has no maps and no odd keys");
+        text.push(b'\n');
+        save(path, &text)
+    }
+}
+
+/// A file.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct FileReport {
+    file: String,
+    format: &'static str,
+    bytes: u64,
+}
+
+impl FileReport {
+    pub(crate) fn new(path: &Path, format: Format, bytes: u64) -> Self {
+        Self { file: path.display().to_string(), format: format.name(), bytes }
+    }
+}
+
+/// The file that was read, and the surface in it.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct InputReport {
+    #[serde(flatten)]
+    file: FileReport,
+    #[serde(flatten)]
+    counts: Counts,
+}
+
+impl InputReport {
+    pub(crate) fn new(loaded: &Loaded, surface: &PolygonMesh) -> Self {
+        let file = FileReport::new(&loaded.path, loaded.format, loaded.bytes);
+        Self { file, counts: Counts::of_polygons(surface) }
+    }
+}
+
+/// The command line's options as they were given, defaults filled in.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct OptionsReport {
+    pub(crate) edge_length: Option<f64>,
+    pub(crate) levels: Option<u8>,
+    pub(crate) regions: Vec<String>,
+    pub(crate) curvature: Option<f64>,
+    pub(crate) gradation: f64,
+    pub(crate) keep_coarse: bool,
+    pub(crate) max_levels: u8,
+    pub(crate) max_quads: u64,
+}
+
+/// How many of what.
+#[derive(Clone, Copy, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Counts {
+    pub(crate) nodes: usize,
+    pub(crate) faces: usize,
+    pub(crate) triangles: usize,
+    pub(crate) quads: usize,
+    pub(crate) polygons: usize,
+    bounds: Option<Bounds>,
+}
+
+/// The smallest box around the nodes.
+#[derive(Clone, Copy, Serialize)]
+struct Bounds {
+    min: [f64; 3],
+    max: [f64; 3],
+}
+
+impl Counts {
+    fn of_polygons(mesh: &PolygonMesh) -> Self {
+        let of_size = |n: usize| mesh.faces().filter(|f| f.len() == n).count();
+        let (faces, triangles, quads) = (mesh.face_count(), of_size(3), of_size(4));
+        let polygons = faces - triangles - quads;
+        Self { nodes: mesh.positions.len(), faces, triangles, quads, polygons, bounds: bounds(mesh.bounds()) }
+    }
+
+    fn of_quads(mesh: &QuadMesh) -> Self {
+        let quads = mesh.quads.len();
+        let nodes = mesh.positions.len();
+        Self { nodes, faces: quads, triangles: 0, quads, polygons: 0, bounds: bounds(mesh.bounds()) }
+    }
+
+    /// In words, such as `8 nodes, 6 quads`.
+    pub(crate) fn in_words(&self) -> String {
+        let mut words = vec![format!("{} nodes", self.nodes)];
+        let kinds =
+            [(self.triangles, "triangles"), (self.quads, "quads"), (self.polygons, "larger polygons")];
+        words.extend(kinds.iter().filter(|(n, _)| *n > 0).map(|(n, kind)| format!("{n} {kind}")));
+        if self.faces == 0 {
+            words.push("no faces".to_owned());
+        }
+        words.join(", ")
+    }
+}
+
+fn bounds(of: Aabb) -> Option<Bounds> {
+    (!of.is_empty()).then(|| Bounds { min: of.min.to_array(), max: of.max.to_array() })
+}
+
+/// Everything known of a mesh.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct MeshReport {
+    #[serde(flatten)]
+    pub(crate) counts: Counts,
+    pub(crate) hash: Option<MeshHash>,
+    pub(crate) levels: Vec<LevelCount>,
+    pub(crate) capped: usize,
+    pub(crate) topology: Option<SurfaceReport>,
+    pub(crate) quality: Option<QualityReport>,
+    pub(crate) defects: Defects,
+}
+
+/// How many cells are of a level.
+#[derive(Serialize)]
+pub(crate) struct LevelCount {
+    pub(crate) level: u8,
+    pub(crate) cells: usize,
+}
+
+/// What is wrong with a mesh.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Defects {
+    /// True if nothing of severity `error` was found.
+    pub(crate) conforming: bool,
+    pub(crate) counts: Vec<DefectCount>,
+    list: Vec<Defect>,
+}
+
+impl Defects {
+    fn new(mut defects: Vec<Defect>) -> Self {
+        let counts = summary(&defects);
+        let conforming = !defects.iter().any(Defect::is_error);
+        defects.truncate(LISTED_DEFECTS);
+        Self { conforming, counts, list: defects }
+    }
+}
+
+impl MeshReport {
+    /// Looks over a quad mesh whose quads have these levels (none, or one a quad).
+    pub(crate) fn of_quads(mesh: &QuadMesh, level: &[u8], capped: usize) -> Self {
+        Self {
+            counts: Counts::of_quads(mesh),
+            hash: Some(mesh_hash(&mesh.positions, &mesh.quads)),
+            levels: levels(level),
+            capped,
+            topology: Some(surface_report(mesh, &Edges::of(mesh))),
+            quality: quad_quality(mesh).report(),
+            defects: Defects::new(check_quads(mesh)),
+        }
+    }
+
+    /// Looks over a polygon mesh. Quality is that of its quads.
+    pub(crate) fn of_polygons(mesh: &PolygonMesh, level: &[u8]) -> Self {
+        if mesh.is_all_quad() {
+            return Self::of_quads(&quads_of(mesh), level, 0);
+        }
+        let defects = Defects::new(check_polygons(mesh));
+        Self {
+            counts: Counts::of_polygons(mesh),
+            hash: triangles_of(mesh).map(|triangles| mesh_hash(&mesh.positions, &triangles)),
+            levels: levels(level),
+            capped: 0,
+            topology: Some(surface_report(mesh, &Edges::of(mesh))),
+            quality: quad_quality(&quads_of(mesh)).report(),
+            defects,
+        }
+    }
+}
+
+/// The quads of a polygon mesh.
+fn quads_of(mesh: &PolygonMesh) -> QuadMesh {
+    let quads = mesh.faces().filter_map(|face| <[NodeId; 4]>::try_from(face).ok()).collect();
+    QuadMesh { positions: mesh.positions.clone(), quads }
+}
+
+/// The faces if all of them are triangles.
+fn triangles_of(mesh: &PolygonMesh) -> Option<Vec<[NodeId; 3]>> {
+    mesh.faces().map(|face| face.try_into().ok()).collect()
+}
+
+fn levels(level: &[u8]) -> Vec<LevelCount> {
+    let mut cells = [0_usize; 256];
+    for &l in level {
+        cells[usize::from(l)] += 1;
+    }
+    (0..=255).zip(cells).filter(|(_, n)| *n > 0).map(|(level, cells)| LevelCount { level, cells }).collect()
+}
+
+/// A distribution's ends and mean in a line of a table.
+pub(crate) fn quality_line(name: &str, values: &Distribution) -> String {
+    let s = &values.summary;
+    format!("  {name:<16} {:>9.3} {:>9.3} {:>9.3} {:>9.3}", s.min, s.percentile_1, s.mean, s.max)
+}
+
+/// The quality of a mesh as a table.
+pub(crate) fn quality_table(quality: &QualityReport) -> String {
+    let lines = [
+        format!("  {:<16} {:>9} {:>9} {:>9} {:>9}", "quality", "min", "1%", "mean", "max"),
+        quality_line("scaled Jacobian", &quality.scaled_jacobian),
+        quality_line("least angle", &quality.min_angle),
+        quality_line("greatest angle", &quality.max_angle),
+        quality_line("aspect", &quality.aspect),
+    ];
+    lines.join("\n")
+}
+
+/// The most memory that this program has held so far, where the system tells.
+pub(crate) fn peak_memory_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kibibytes * 1024)
+}
