@@ -1,0 +1,169 @@
+// The packed tarball, used from Node, Vite and webpack, and looked over by the usual checkers.
+
+import { cpSync, readFileSync, statSync } from 'node:fs';
+import { join } from 'node:path';
+import { gzipSync } from 'node:zlib';
+
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+
+import { launchBrowser } from '../../scripts/browser.mjs';
+import { serveFolder } from '../../scripts/static-server.mjs';
+import { CASES, installPacked, node, tool } from './project.js';
+import type { Project } from './project.js';
+
+/** The most that a module of the mesher may weigh when compressed, in bytes. */
+const MESHER_BUDGET = 400_000;
+
+interface Outcome {
+  threads: number;
+  hashes: Record<string, string>;
+  cancelled: string;
+  cancelledAfter: number;
+  stages: string[];
+  faces: number;
+  refused: { name: string; line: number };
+  ended: string;
+}
+
+const cases: { name: string; hash: string }[] = JSON.parse(readFileSync(CASES, 'utf8'));
+
+function expectGood(outcome: Outcome, threads: number) {
+  expect(outcome).toMatchObject({
+    threads,
+    hashes: Object.fromEntries(cases.map(({ name, hash }) => [name, hash])),
+    cancelled: 'AbortError',
+    faces: 4,
+    refused: { name: 'InputError', line: 2 },
+    ended: 'terminated',
+  });
+  expect(outcome.cancelledAfter).toBeLessThan(200);
+  expect(outcome.stages.length).toBeGreaterThan(0);
+}
+
+let project: Project;
+let browser: Browser;
+
+beforeAll(async () => {
+  project = await installPacked('tarball');
+  browser = await launchBrowser();
+});
+afterAll(() => browser?.close());
+
+/** Opens a page that offers the scenario, runs it there, and fails on any error that the page reports. */
+async function runInPage(url: string, options: object): Promise<Outcome> {
+  const page = await browser.newPage();
+  const errors: string[] = [];
+  page.on('pageerror', (error) => errors.push(error.message));
+  page.on('response', (response) => {
+    if (response.status() >= 400) errors.push(`${response.status()} ${response.url()}`);
+  });
+  try {
+    await page.goto(url);
+    await page.waitForFunction(() => 'scenario' in globalThis, undefined, { timeout: 10_000 });
+    const outcome = await page.evaluate(
+      ([given, chosen]) => (globalThis as unknown as PageScope).scenario(given, chosen),
+      [cases, options] as const,
+    );
+    return outcome;
+  } finally {
+    await page.close();
+    expect(errors).toEqual([]);
+  }
+}
+
+interface PageScope {
+  scenario(cases: unknown, options: unknown): Promise<Outcome>;
+}
+
+describe('in Node', () => {
+  it.each([1, 2])('works on %i threads', async (threads) => {
+    const printed = await node(['node/main.mjs', CASES, String(threads)], project.folder);
+    expectGood(JSON.parse(printed), threads);
+  });
+
+  it('does not keep a program from ending', async () => {
+    expect(await node(['node/idle.mjs'], project.folder)).toBe('16\n');
+  });
+});
+
+describe.each([
+  { bundler: 'Vite', folder: 'vite', script: 'vite/bin/vite.js', args: ['build'] },
+  { bundler: 'webpack', folder: 'webpack', script: '', args: [] },
+])('built by $bundler', ({ folder, script, args }) => {
+  beforeAll(async () => {
+    const cwd = join(project.folder, folder);
+    if (script) await tool(script, args, cwd);
+    else await buildWithWebpack(cwd);
+  });
+
+  it.each([
+    { where: 'a cross-origin isolated page', isolated: true, options: { threads: 2 }, threads: 2 },
+    { where: 'any other page', isolated: false, options: {}, threads: 1 },
+    { where: 'an isolated page that wants one thread', isolated: true, options: { threads: 1 }, threads: 1 },
+  ])('works in $where', async ({ isolated, options, threads }) => {
+    const server = await serveFolder(join(project.folder, folder, 'dist'), { isolated });
+    try {
+      expectGood(await runInPage(server.url, options), threads);
+    } finally {
+      await server.close();
+    }
+  });
+});
+
+it("works in Vite's development server", async () => {
+  const { createServer } = await import('vite');
+  const headers = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
+  const server = await createServer({
+    root: join(project.folder, 'vite'),
+    logLevel: 'error',
+    server: { headers, port: 0, fs: { allow: [project.folder] } },
+  });
+  await server.listen();
+  try {
+    const [url = ''] = server.resolvedUrls?.local ?? [];
+    expectGood(await runInPage(url, { threads: 2 }), 2);
+  } finally {
+    await server.close();
+  }
+});
+
+describe('the tarball', () => {
+  it('pleases publint', async () => {
+    const { publint } = await import('publint');
+    const { messages } = await publint({ pkgDir: join(project.folder, 'node_modules', 'hexmill'), strict: true });
+    expect(messages).toEqual([]);
+  });
+
+  it('has types that resolve', async () => {
+    // Modules and workers are addresses; they have no types to resolve.
+    const addresses = ['mesher.wasm', 'mesher-threads.wasm', 'package.json'];
+    const args = [project.tarball, '--profile', 'esm-only', '--exclude-entrypoints', ...addresses];
+    await tool('@arethetypeswrong/cli/dist/index.js', args, project.folder);
+  });
+
+  it('holds what is exported and stays within its budget', () => {
+    const installed = join(project.folder, 'node_modules', 'hexmill');
+    for (const name of ['mesher', 'mesher-threads']) {
+      const module = readFileSync(join(installed, 'dist', 'wasm', name, `${name}.wasm`));
+      expect(gzipSync(module, { level: 9 }).length).toBeLessThan(MESHER_BUDGET);
+    }
+    const { dependencies, exports } = JSON.parse(readFileSync(join(installed, 'package.json'), 'utf8'));
+    expect(dependencies).toBeUndefined();
+    const files = Object.values<string | Record<string, string>>(exports).flatMap((entry) => Object.values(entry));
+    for (const file of files.filter((path) => path.startsWith('./'))) {
+      expect(statSync(join(installed, file)).isFile()).toBe(true);
+    }
+  });
+});
+
+async function buildWithWebpack(folder: string): Promise<void> {
+  const { default: webpack } = await import('webpack');
+  const { default: config } = await import(/* @vite-ignore */ join(folder, 'webpack.config.mjs'));
+  const places = { context: folder, output: { path: join(folder, 'dist') } };
+  const stats = await new Promise<import('webpack').Stats | undefined>((resolve, reject) => {
+    webpack({ ...config, ...places }, (error, result) => (error ? reject(error) : resolve(result)));
+  });
+  expect(stats?.toJson({ all: false, errors: true, warnings: true })).toMatchObject({ errors: [], warnings: [] });
+  cpSync(join(folder, 'index.html'), join(folder, 'dist', 'index.html'));
+}
