@@ -9,7 +9,7 @@ struct Varying {
     @builtin(position) clip: vec4<f32>,
     @location(0) colour: vec4<f32>,
     // Distance from the line's middle, and half its width, in device pixels.
-    @location(1) @interpolate(linear) across: f32,
+    @location(1) across: f32,
     @location(2) @interpolate(flat, either) half_width: f32,
 }
 
@@ -44,10 +44,11 @@ fn vertex(
     let half_width = 0.5 * width * frame.canvas.z;
     let room = half_width + 0.5;
     let offset = across * side * room + along * (at_end * 2.0 - 1.0) * half_width * 0.5;
-    var clip = mix(from_clip, to_clip, at_end);
-    clip += vec4<f32>(offset / half_canvas * clip.w, 0.0, 0.0);
-    // A hair towards the eye: outlines lie on surfaces.
-    clip.z = mix(clip.z - 2e-5 * clip.w, 0.0, on_top);
+    let place = mix(from_clip.xyz / from_clip.w, to_clip.xyz / to_clip.w, at_end);
+    // Divided by w already, so that the distance across is interpolated along the screen. A hair towards
+    // the eye: outlines lie on surfaces.
+    let depth = mix(place.z - 2e-5, 0.0, on_top);
+    let clip = vec4<f32>(place.xy + offset / half_canvas, depth, 1.0);
     return Varying(clip, vec4<f32>(colour.rgb, colour.a * opacity), side * room, half_width);
 }
 
