@@ -1,5 +1,7 @@
 //! The graphics device, the canvas it draws on, and the targets of a frame.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use wgpu::{
     CurrentSurfaceTexture, Device, Extent3d, Instance, Limits, Queue, Surface, SurfaceConfiguration, Texture,
     TextureFormat, TextureUsages, TextureView,
@@ -22,6 +24,9 @@ pub enum GpuError {
     /// The canvas can no longer be drawn on.
     #[error("the graphics driver took the canvas away")]
     Lost,
+    /// The driver or wgpu refused a call: memory has run out, or it is our mistake.
+    #[error("the graphics driver gave up: {0}")]
+    Failed(String),
     /// A mesh is too large for the driver's textures.
     #[error("{items} {what} are more than this graphics driver can draw ({limit})")]
     TooLarge {
@@ -45,6 +50,8 @@ pub struct Gpu {
     surface: Surface<'static>,
     config: SurfaceConfiguration,
     targets: Targets,
+    /// What the device reported since the last frame.
+    failure: Arc<Mutex<Option<String>>>,
 }
 
 /// What a frame is drawn into before it is resolved to the canvas.
@@ -102,7 +109,12 @@ impl Gpu {
         config.format = config.format.remove_srgb_suffix();
         surface.configure(&device, &config);
         let targets = Targets::new(&device, &config);
-        Ok(Self { device, queue, limits, surface, config, targets })
+        let failure = Arc::new(Mutex::new(None));
+        let report = Arc::clone(&failure);
+        device.on_uncaptured_error(Arc::new(move |e: wgpu::Error| {
+            report.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(e.to_string());
+        }));
+        Ok(Self { failure, device, queue, limits, surface, config, targets })
     }
 
     /// Fits the targets to a canvas of this many device pixels.
@@ -126,6 +138,12 @@ impl Gpu {
         [self.config.width, self.config.height]
     }
 
+    /// What went wrong since the last call, if anything did.
+    pub fn check(&self) -> Result<(), GpuError> {
+        let failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
+        failure.map_or(Ok(()), |message| Err(GpuError::Failed(message)))
+    }
+
     /// Draws a frame with `draw` and shows it.
     pub fn frame(&self, draw: impl FnOnce(&Device, &Queue, Target<'_>)) -> Result<(), GpuError> {
         let canvas = match self.surface.get_current_texture() {
@@ -143,7 +161,7 @@ impl Gpu {
             Target { colour: &self.targets.colour, resolved, depth: &self.targets.depth },
         );
         self.queue.present(canvas);
-        Ok(())
+        self.check()
     }
 }
 

@@ -63,11 +63,11 @@ impl Renderer {
     /// A renderer on a canvas.
     #[cfg(target_arch = "wasm32")]
     pub async fn on_canvas(canvas: web_sys::HtmlCanvasElement) -> Result<Self, GpuError> {
-        Ok(Self::new(Gpu::on_canvas(canvas).await?))
+        Self::new(Gpu::on_canvas(canvas).await?)
     }
 
     /// A renderer on a device.
-    pub fn new(gpu: Gpu) -> Self {
+    pub fn new(gpu: Gpu) -> Result<Self, GpuError> {
         let frame = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frame"),
             size: size_of::<FrameUniform>() as u64,
@@ -89,7 +89,8 @@ impl Renderer {
         let outlines = Lines::new(&gpu, &layout, Place::InScene);
         let front_lines = Lines::new(&gpu, &layout, Place::OnTop);
         let discs = Discs::new(&gpu, &layout);
-        Self {
+        gpu.check()?;
+        Ok(Self {
             gpu,
             frame,
             frame_group,
@@ -101,7 +102,7 @@ impl Renderer {
             front_lines,
             discs,
             regions_changed: true,
-        }
+        })
     }
 
     /// Fits the canvas, in device pixels.
@@ -114,7 +115,7 @@ impl Renderer {
         // The old one goes first: two large meshes may not fit.
         self.mesh = None;
         self.mesh = surface.map(|s| self.mesh_pipeline.upload(&self.gpu, s)).transpose()?;
-        Ok(())
+        self.gpu.check()
     }
 
     /// Colours the surface's faces by index, or all alike.

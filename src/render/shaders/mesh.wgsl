@@ -11,6 +11,8 @@ struct Mesh {
     coloured: u32,
     // 1: edges are drawn.
     edges: u32,
+    // WebGL2 wants whole rows of 16 bytes.
+    padding: u32,
 }
 
 @group(1) @binding(0) var<uniform> mesh: Mesh;
