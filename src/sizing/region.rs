@@ -1,5 +1,7 @@
 //! Refinement regions: a shape in space and what is wanted inside it.
 
+use serde::{Deserialize, Serialize};
+
 use crate::geometry::Point;
 
 /// Elements that overlap `shape` are refined until they reach `target`.
@@ -35,7 +37,8 @@ pub enum Target {
 ///
 /// A shape may have no thickness: a flat box, the points of a set with radius 0, a surface with distance 0. The
 /// elements that it lies in overlap it; if it lies in an edge, all elements at that edge do.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "camelCase")]
 pub enum Shape {
     /// A box of any orientation: the box from `min` to `max`, turned about its centre.
     Box {
@@ -44,6 +47,7 @@ pub enum Shape {
         /// Greatest corner before the turn.
         max: Point,
         /// Quaternion x, y, z, w, of any length but 0. In JSON it may be left out: no turn.
+        #[serde(default)]
         rotation: glam::DQuat,
     },
     /// A ball.

@@ -9,7 +9,7 @@ use web_sys::HtmlCanvasElement;
 use crate::{
     render::Renderer,
     scene::{
-        Axis, Background, Camera, ColourMap, Handle, Projection, Scene, Style, Surface, Viewport,
+        Axis, Background, Camera, ColourMap, Handle, Projection, Scene, Style, Surface, Up, Viewport,
         colour_index,
     },
     sizing::Shape,
@@ -43,6 +43,7 @@ struct StyleChange {
     edge_width: Option<f32>,
     background: Option<Background>,
     projection: Option<Projection>,
+    up: Option<Up>,
 }
 
 #[derive(serde::Serialize)]
@@ -139,6 +140,12 @@ impl Viewer {
         self.renderer.regions_changed();
         let camera = &mut self.scene.camera;
         camera.projection = change.projection.unwrap_or(camera.projection);
+        if let Some(up) = change.up.filter(|&up| up != camera.up) {
+            camera.up = up;
+            camera.look_along(Axis::Iso);
+            self.flight = None;
+            self.scene.camera = self.scene.framed();
+        }
         Ok(())
     }
 

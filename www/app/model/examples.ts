@@ -9,18 +9,20 @@ export interface Example {
   readonly licence: string;
   readonly source: string;
   readonly faces: string;
+  readonly up: 'y' | 'z';
 }
 
 const OPENSUBDIV = {
   by: 'Pixar, OpenSubdiv regression shapes',
   licence: 'Modified Apache 2.0',
   source: 'https://github.com/PixarAnimationStudios/OpenSubdiv',
+  up: 'z',
 } as const;
 
 export const EXAMPLES: readonly Example[] = [
   {
     id: 'spot', file: 'spot.obj', label: 'Spot', faces: '5,856 triangles',
-    by: 'Keenan Crane', licence: 'CC0', source: 'https://www.cs.cmu.edu/~kmcrane/Projects/ModelRepository/',
+    by: 'Keenan Crane', licence: 'CC0', source: 'https://www.cs.cmu.edu/~kmcrane/Projects/ModelRepository/', up: 'y',
   },
   { id: 'car', file: 'car.obj', label: 'Car', faces: '1,575 quads', ...OPENSUBDIV },
   { id: 'rook', file: 'rook.obj', label: 'Rook', faces: '777 quads and triangles', ...OPENSUBDIV },
@@ -29,11 +31,11 @@ export const EXAMPLES: readonly Example[] = [
   { id: 'helmet', file: 'helmet.obj', label: 'Helmet', faces: '58 quads', ...OPENSUBDIV },
   {
     id: 'bunny', file: 'bunny.obj', label: 'Bunny', faces: '6,966 triangles',
-    by: 'Stanford Computer Graphics Laboratory', licence: 'Free with acknowledgement', source: 'https://graphics.stanford.edu/data/3Dscanrep/',
+    by: 'Stanford Computer Graphics Laboratory', licence: 'Free with acknowledgement', source: 'https://graphics.stanford.edu/data/3Dscanrep/', up: 'y',
   },
   {
     id: 'plate', file: '3holes.obj', label: 'Plate', faces: '3,982 triangles',
-    by: 'Marco Livesu, cinolib', licence: 'MIT', source: 'https://github.com/mlivesu/cinolib',
+    by: 'Marco Livesu, cinolib', licence: 'MIT', source: 'https://github.com/mlivesu/cinolib', up: 'z',
   },
 ];
 

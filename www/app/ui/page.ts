@@ -59,8 +59,10 @@ export class Page {
   openExample(id: string, settings: Partial<Settings> = {}): void {
     const example = exampleById(id);
     const url = example && EXAMPLE_URLS[example.file];
-    if (example && url) void this.workbench.loadExample(example, url, settings);
-    else this.say(`There is no example "${id}". There are ${EXAMPLES.map((known) => known.id).join(', ')}.`);
+    if (example && url) {
+      this.viewport.up.value = example.up;
+      void this.workbench.loadExample(example, url, settings);
+    } else this.say(`There is no example "${id}". There are ${EXAMPLES.map((known) => known.id).join(', ')}.`);
   }
 
   /** Opens what the address asks for. */

@@ -32,6 +32,8 @@ export function toolbar(page: Page): TemplateResult | typeof nothing {
         icon: 'perspective', label: 'Perspective', pressed: viewport.projection.value === 'perspective',
         press: () => (viewport.projection.value = viewport.projection.value === 'perspective' ? 'orthographic' : 'perspective'),
       })}
+      <button class="icon-button letter" type="button" title="What is up: Z as in CAD, Y as in modelling" aria-label=${`Up is ${viewport.up.value.toUpperCase()}`}
+        @click=${() => (viewport.up.value = viewport.up.value === 'z' ? 'y' : 'z')}>${viewport.up.value.toUpperCase()}↑</button>
       ${iconButton({ icon: 'camera', label: 'Save a picture', press: () => void page.screenshot() })}
     </span>
   </div>`;

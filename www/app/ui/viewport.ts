@@ -12,6 +12,7 @@ export type Axis = '+x' | '-x' | '+y' | '-y' | '+z' | '-z' | 'iso';
 export class Viewport {
   readonly edges = signal(true);
   readonly projection = signal<'perspective' | 'orthographic'>('perspective');
+  readonly up = signal<'y' | 'z'>('z');
   /** Why there is no picture, in plain words. */
   readonly trouble = signal<string | null>(null);
   readonly ready = signal(false);
@@ -148,7 +149,7 @@ export class Viewport {
 
   #drawStyle(view: View): () => void {
     return effect(() =>
-      view.setStyle({ edges: this.edges.value, projection: this.projection.value, background: this.#page.theme.scheme.value }),
+      view.setStyle({ edges: this.edges.value, projection: this.projection.value, background: this.#page.theme.scheme.value, up: this.up.value }),
     );
   }
 
