@@ -47,7 +47,7 @@ impl CellKind {
 
     /// The kind of Gmsh's element type `number` with its number of nodes, or the name of a kind that is
     /// not read.
-    pub fn from_gmsh(number: i64) -> Result<(Self, usize), &'static str> {
+    pub fn from_gmsh(number: i64) -> Result<(Self, u8), &'static str> {
         Ok(match number {
             1 => (Self::Polyline, 2),
             2 => (Self::Triangle, 3),

@@ -10,18 +10,20 @@ pub(super) struct Tokens<'a> {
     bytes: &'a [u8],
     at: usize,
     line: u64,
+    /// False once binary data were passed over, in which nobody counts lines.
+    line_is_known: bool,
     comment: Option<u8>,
 }
 
 impl<'a> Tokens<'a> {
     /// Words of `bytes`, whose first line has number `line`.
     pub fn new(format: Format, bytes: &'a [u8], line: u64, comment: Option<u8>) -> Self {
-        Self { format, bytes, at: 0, line, comment }
+        Self { format, bytes, at: 0, line, line_is_known: true, comment }
     }
 
-    /// The line that the last word came from.
-    pub fn line(&self) -> u64 {
-        self.line
+    /// The line that the last word came from; `None` after binary data.
+    pub fn line(&self) -> Option<u64> {
+        self.line_is_known.then_some(self.line)
     }
 
     /// Number of bytes not yet read.
@@ -36,7 +38,7 @@ impl<'a> Tokens<'a> {
 
     /// An error at the line of the last word.
     pub fn refuse(&self, code: &'static str, message: impl Into<String>) -> ReadError {
-        refuse(self.format, self.line, code, message)
+        refuse(self.format, self.line(), code, message)
     }
 
     fn skip_space(&mut self) {
@@ -100,6 +102,7 @@ impl<'a> Tokens<'a> {
             return Err(refuse(self.format, None, code::TRUNCATED, message));
         };
         self.at += size;
+        self.line_is_known = false;
         Ok(data)
     }
 

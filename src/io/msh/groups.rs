@@ -1,0 +1,95 @@
+//! Physical groups of an MSH file, and the tag sets that they make.
+
+use std::collections::HashMap;
+
+use super::UNTAGGED;
+use super::file::MshFile;
+use crate::io::ReadError;
+use crate::io::refusal::{code, excerpt};
+use crate::io::tag_interner::CellTags;
+use crate::io::tag_numbers::set_of_labels;
+use crate::mesh::TagSet;
+
+/// What the file says of physical groups. Entities and groups are known by dimension and number.
+#[derive(Default)]
+pub(super) struct Groups {
+    names: HashMap<(i64, i64), String>,
+    of_entity: HashMap<(i64, i64), Vec<i64>>,
+    /// The tags of the elements.
+    pub tags: CellTags,
+    set_of_groups: HashMap<(i64, Vec<i64>), u32>,
+}
+
+impl Groups {
+    /// Reads `$PhysicalNames` after its name.
+    pub fn read_names(&mut self, file: &mut MshFile<'_>) -> Result<(), ReadError> {
+        for _ in 0..file.tokens.count("the number of names", 6)? {
+            let dimension = file.tokens.integer("the dimension of a group")?;
+            let number = file.tokens.integer("the number of a group")?;
+            let text = file.tokens.rest_of_line();
+            let name = text.strip_prefix(b"\"").and_then(|text| text.strip_suffix(b"\"")).ok_or_else(|| {
+                let message = format!("the name of a group is {}; it must stand in double quotes", excerpt(text));
+                file.tokens.refuse(code::SYNTAX, message)
+            })?;
+            self.names.insert((dimension, number), String::from_utf8_lossy(name).into_owned());
+        }
+        Ok(())
+    }
+
+    /// Reads `$Entities` after its name: only the groups of each entity matter.
+    pub fn read_entities(&mut self, file: &mut MshFile<'_>) -> Result<(), ReadError> {
+        let mut counts = [0; 4];
+        for count in &mut counts {
+            *count = file.size("a number of entities")?;
+        }
+        for (dimension, count) in (0..).zip(counts) {
+            for _ in 0..count {
+                let number = file.int("the number of an entity")?;
+                for _ in 0..if dimension == 0 { 3 } else { 6 } {
+                    file.double("the box of an entity")?;
+                }
+                let groups = file.size("the number of groups of an entity")?;
+                let groups = file.checked(groups, 2, "the number of groups of an entity")?;
+                let groups: Vec<i64> =
+                    (0..groups).map(|_| file.int("the number of a group")).collect::<Result<_, _>>()?;
+                self.of_entity.insert((dimension, number), groups);
+                if dimension > 0 {
+                    for _ in 0..file.size("the number of bounding entities")? {
+                        file.int("the number of a bounding entity")?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The tag set of the elements of an entity.
+    pub fn set_of_entity(&mut self, dimension: i64, entity: i64) -> u32 {
+        let groups = self.of_entity.get(&(dimension, entity)).cloned().unwrap_or_default();
+        self.set_of_groups(dimension, groups)
+    }
+
+    /// The tag set of elements in these groups: the names of all, and the number of the first. A
+    /// negative number is a group that the entity is in with the other orientation.
+    pub fn set_of_groups(&mut self, dimension: i64, groups: Vec<i64>) -> u32 {
+        let groups: Vec<i64> =
+            groups.into_iter().map(|group| group.saturating_abs()).filter(|&group| group != 0).collect();
+        let key = (dimension, groups);
+        if let Some(&set) = self.set_of_groups.get(&key) {
+            return set;
+        }
+        let names: Vec<&str> = key
+            .1
+            .iter()
+            .filter_map(|&group| self.names.get(&(dimension, group)).map(String::as_str))
+            .collect();
+        let set = if names == [UNTAGGED] {
+            TagSet::default()
+        } else {
+            set_of_labels(names, key.1.first().and_then(|&group| i32::try_from(group).ok()))
+        };
+        let index = self.tags.intern(set);
+        self.set_of_groups.insert(key, index);
+        index
+    }
+}

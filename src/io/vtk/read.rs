@@ -1,0 +1,111 @@
+//! Reads legacy VTK: the header, and one section after the other.
+
+use std::collections::HashMap;
+
+use super::attributes::read_attribute;
+use super::cells::{CellList, read_cells};
+use super::file::LegacyFile;
+use crate::geometry::Point;
+use crate::io::cell_collector::CellCollector;
+use crate::io::refusal::{code, excerpt, refuse};
+use crate::io::scalars::{Column, Scalar};
+use crate::io::vtk_cells::{cell_attributes, collect_cells, is_wanted};
+use crate::io::{Document, Format, ReadError};
+
+/// The mesh in a legacy VTK file.
+pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
+    let mut file = LegacyFile::open(bytes)?;
+    let mut grid = Grid::default();
+    // What the attributes to come belong to: how many there are, and whether they are cells.
+    let mut owner = None;
+    while let Some(word) = file.tokens.next() {
+        let section = word.to_ascii_uppercase();
+        match section.as_slice() {
+            b"CELL_DATA" => owner = Some((file.number("the number of cells")?, true)),
+            b"POINT_DATA" => owner = Some((file.number("the number of points")?, false)),
+            b"METADATA" => file.skip_metadata(),
+            _ if grid.read_section(&section, &mut file)? => {}
+            _ => {
+                let (count, of_cells) = owner.unwrap_or((0, false));
+                let arrays = read_attribute(&mut file, &section, count)?;
+                let Some(arrays) = arrays else {
+                    let message = format!("{} is no section of the format", excerpt(word));
+                    return Err(file.tokens.refuse(code::SYNTAX, message));
+                };
+                grid.cell_data.extend(arrays.into_iter().filter(|(name, _)| of_cells && is_wanted(name)));
+            }
+        }
+    }
+    grid.finish()
+}
+
+/// The sections so far. The four lists of polygonal data stand in the order of its cell data.
+#[derive(Default)]
+struct Grid {
+    positions: Vec<Point>,
+    cells: CellList,
+    types: Vec<i64>,
+    polygonal: [CellList; 3],
+    cell_data: HashMap<String, Column>,
+}
+
+/// VTK types of the cells in `VERTICES`, `LINES` and `POLYGONS`.
+const POLYGONAL_TYPES: [i64; 3] = [2, 4, 7];
+
+impl Grid {
+    /// Reads a section of the grid itself; false if `section` is none.
+    fn read_section(&mut self, section: &[u8], file: &mut LegacyFile<'_>) -> Result<bool, ReadError> {
+        match section {
+            b"DATASET" => check_dataset(file)?,
+            b"POINTS" => self.positions = read_points(file)?,
+            b"CELLS" => self.cells = read_cells(file)?,
+            b"CELL_TYPES" => {
+                let count = file.number("the number of cell types")?;
+                file.start_data();
+                self.types = file.integers(count, Scalar::Signed(4), "the cell types")?;
+            }
+            b"VERTICES" => self.polygonal[0] = read_cells(file)?,
+            b"LINES" => self.polygonal[1] = read_cells(file)?,
+            b"POLYGONS" => self.polygonal[2] = read_cells(file)?,
+            b"TRIANGLE_STRIPS" => {
+                if !read_cells(file)?.ends.is_empty() {
+                    let message = "triangle strips are not read — turn them into triangles first";
+                    return Err(file.tokens.refuse(code::UNSUPPORTED_CELL, message));
+                }
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn finish(mut self) -> Result<Document, ReadError> {
+        for (list, number) in self.polygonal.iter().zip(POLYGONAL_TYPES) {
+            self.types.resize(self.types.len() + list.ends.len(), number);
+            self.cells.append(list);
+        }
+        let mut collector = CellCollector::new(Format::Vtk, self.positions.len(), 0);
+        collect_cells(&mut collector, Format::Vtk, &self.cells.nodes, &self.cells.ends, &self.types)?;
+        let attributes = cell_attributes(self.cell_data, self.cells.ends.len(), &HashMap::new());
+        collector.finish(self.positions, attributes)
+    }
+}
+
+fn check_dataset(file: &mut LegacyFile<'_>) -> Result<(), ReadError> {
+    let kind = file.tokens.expect("the kind of dataset")?.to_ascii_uppercase();
+    if kind == b"UNSTRUCTURED_GRID" || kind == b"POLYDATA" {
+        return Ok(());
+    }
+    let message = format!(
+        "the dataset is {}; UNSTRUCTURED_GRID and POLYDATA are read — convert it, in ParaView for instance",
+        excerpt(&kind)
+    );
+    Err(refuse(Format::Vtk, file.tokens.line(), code::UNSUPPORTED_FEATURE, message))
+}
+
+fn read_points(file: &mut LegacyFile<'_>) -> Result<Vec<Point>, ReadError> {
+    let count = file.number("the number of points")?;
+    let scalar = file.scalar()?;
+    file.start_data();
+    let values = file.column(count.saturating_mul(3), scalar, "the points")?.into_floats();
+    Ok(values.chunks_exact(3).map(|p| Point::new(p[0], p[1], p[2])).collect())
+}

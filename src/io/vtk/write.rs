@@ -1,0 +1,69 @@
+//! Writes legacy VTK.
+
+use crate::io::cell_view::CellView;
+use crate::io::refusal::{code, refuse_writing};
+use crate::io::tag_numbers::cell_numbers;
+use crate::io::text::Text;
+use crate::io::vtk_cells::{LEVEL, PARENT, TAG, cell_type};
+use crate::io::{Document, Format, WriteError};
+
+/// The file as bytes: the same for any number of threads.
+pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
+    let view = CellView::new(document, Format::Vtk)?;
+    let (cells, nodes) = (view.cells, view.positions.len());
+    let entries = cells.len() + cells.corners().len();
+    if i32::try_from(entries).is_err() || i32::try_from(nodes).is_err() {
+        let message = "the mesh has more than 2^31 nodes or corners, too many for this format; write VTU";
+        return Err(refuse_writing(Format::Vtk, code::TOO_LARGE, message));
+    }
+    let mut file = Text::default();
+    file.word("# vtk DataFile Version 3.0\nhexmill\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
+    file.integer(nodes).word(" double\n");
+    file.items(nodes, |line, node| {
+        let p = view.positions[node];
+        line.float(p.x).word(" ").float(p.y).word(" ").float(p.z).word("\n");
+    });
+    file.word("CELLS ").integer(cells.len()).word(" ").integer(entries).word("\n");
+    file.items(cells.len(), |line, cell| {
+        let nodes = cells.nodes(cell);
+        line.integer(nodes.len());
+        for node in nodes {
+            line.word(" ").integer(node.0);
+        }
+        line.word("\n");
+    });
+    file.word("CELL_TYPES ").integer(cells.len()).word("\n");
+    column(&mut file, cells.len(), |cell| cell_type(cells, cell));
+    write_cell_data(&mut file, &view);
+    Ok(file.into_bytes())
+}
+
+fn write_cell_data(file: &mut Text, view: &CellView<'_>) {
+    if view.level.is_empty() && view.parent.is_empty() && view.tags.of_element.is_empty() {
+        return;
+    }
+    file.word("CELL_DATA ").integer(view.cells.len()).word("\n");
+    let scalars = |file: &mut Text, name: &str, kind: &str| {
+        file.word("SCALARS ").word(name).word(" ").word(kind).word(" 1\nLOOKUP_TABLE default\n");
+    };
+    if !view.level.is_empty() {
+        scalars(file, LEVEL, "int");
+        column(file, view.level.len(), |cell| view.level[cell]);
+    }
+    if !view.parent.is_empty() {
+        scalars(file, PARENT, "unsigned_int");
+        column(file, view.parent.len(), |cell| view.parent[cell].0);
+    }
+    if !view.tags.of_element.is_empty() {
+        scalars(file, TAG, "int");
+        let numbers = cell_numbers(view.tags);
+        column(file, numbers.len(), |cell| numbers[cell]);
+    }
+}
+
+/// A number a line.
+fn column<T: itoa::Integer>(file: &mut Text, count: usize, number: impl Fn(usize) -> T + Sync) {
+    file.items(count, |line, index| {
+        line.integer(number(index)).word("\n");
+    });
+}
