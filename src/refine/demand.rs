@@ -30,6 +30,11 @@ impl Demand {
         !self.is_uniform_at(level) && self.field.is_idle_from(level)
     }
 
+    /// The level below which nothing is wanted finer, at most `max_levels`.
+    pub fn deepest(&self, max_levels: u8) -> u8 {
+        (0..max_levels).find(|&level| self.is_idle_from(level)).unwrap_or(max_levels)
+    }
+
     /// True if an element of `level`, part of input face `root`, is wanted finer.
     pub fn wants(&self, corners: [Point; 4], longest: f64, level: u8, root: FaceId) -> bool {
         self.is_uniform_at(level) || self.field.wants(&SizedElement { corners, longest, level, root })

@@ -71,7 +71,7 @@ pub(super) fn refuse_absurd(
     demand: &Demand,
     options: &QuadOptions,
 ) -> Result<(), RefineError> {
-    let deepest = (0..options.max_levels).find(|&l| demand.is_idle_from(l)).unwrap_or(options.max_levels);
+    let deepest = demand.deepest(options.max_levels);
     let most = input.corners.len() as f64 * 4_f64.powi(i32::from(deepest));
     if most <= options.max_quads as f64 {
         return Ok(());

@@ -29,6 +29,9 @@ use crate::{Cancelled, Monitor, Stage};
 /// Elements are sized in runs of this many; the monitor is asked before each run.
 const RUN: usize = 1 << 14;
 
+/// Elements are split in batches of this many, so that the monitor is asked several times a second.
+const BATCH: usize = 1 << 20;
+
 const REFINE: Stage = Stage("refine");
 const BALANCE: Stage = Stage("balance");
 
@@ -61,6 +64,8 @@ pub struct QuadRefinement<'a> {
     input: &'a PolygonMesh,
     options: &'a QuadOptions,
     demand: Demand,
+    /// The deepest level that the options call for.
+    deepest: u8,
     /// None while the input's faces wait for the first decision.
     forest: Option<QuadForest>,
     /// Elements of the deepest level that would have been refined further, were it not for `max_levels`.
@@ -84,7 +89,8 @@ impl<'a> QuadRefinement<'a> {
     pub fn new(input: &'a PolygonMesh, options: &'a QuadOptions) -> Result<Self, RefineError> {
         let demand = Demand::new(input, options)?;
         let forest = if options.keep_coarse { Some(QuadForest::coarse(input)?) } else { None };
-        Ok(Self { input, options, demand, forest, capped: 0 })
+        let deepest = demand.deepest(options.max_levels);
+        Ok(Self { input, options, demand, deepest, forest, capped: 0 })
     }
 
     /// The elements that the next [`advance`](Self::advance) decides on: the input's faces at first, then the
@@ -95,7 +101,7 @@ impl<'a> QuadRefinement<'a> {
                 .into_par_iter()
                 .map(|f| outline(&face_points(self.input, f)))
                 .unzip(),
-            Some(forest) => deepest(forest)
+            Some(forest) => last_elements(forest)
                 .par_iter()
                 .map(|element| outline(&corners(&forest.positions, element)))
                 .unzip(),
@@ -117,14 +123,13 @@ impl<'a> QuadRefinement<'a> {
             Some(forest) => {
                 let depth = forest.levels.len() - 1;
                 let level = forest.base_level + depth as u8;
-                let fraction = f64::from(level) / f64::from(self.options.max_levels.max(1));
-                monitor.checkpoint(REFINE, fraction)?;
+                monitor.checkpoint(REFINE, self.share_of_work(level))?;
                 let marked = self.marked(forest, targets, monitor)?;
                 if level >= self.options.max_levels {
                     self.capped = marked.len();
                     return Ok(false);
                 }
-                self.split(&marked)
+                self.split(&marked, monitor)
             }
         }
     }
@@ -206,14 +211,25 @@ impl<'a> QuadRefinement<'a> {
     }
 
     /// Splits elements of the deepest level, if the limit allows it.
-    fn split(&mut self, marked: &[u32]) -> Result<bool, RefineError> {
-        let forest = self.forest.as_mut().expect("the forest that was marked");
+    fn split(&mut self, marked: &[u32], monitor: &dyn Monitor) -> Result<bool, RefineError> {
+        let forest = self.forest.as_ref().expect("the forest that was marked");
         let depth = forest.levels.len() - 1;
         let level = forest.base_level + depth as u8 + 1;
         let quads = forest.leaf_count() as u64 + 3 * marked.len() as u64;
         check_size(self.options, level, quads)?;
-        forest.split(depth, marked);
+        let (from, to) = (self.share_of_work(level - 1), self.share_of_work(level));
+        for (k, batch) in marked.chunks(BATCH).enumerate() {
+            let share = (k * BATCH) as f64 / marked.len() as f64;
+            monitor.checkpoint(REFINE, from + share * (to - from))?;
+            self.forest.as_mut().expect("the forest that was marked").split(depth, batch);
+        }
         Ok(!marked.is_empty())
+    }
+
+    /// How much of the refinement is done once all elements of `level` are made: each level is about four times
+    /// the work of the one before. A caller's targets may lead deeper than was expected.
+    fn share_of_work(&self, level: u8) -> f64 {
+        0.25_f64.powi(i32::from(self.deepest) - i32::from(level)).min(1.0)
     }
 }
 
@@ -224,7 +240,7 @@ fn check_size(options: &QuadOptions, level: u8, quads: u64) -> Result<(), Refine
 }
 
 /// The deepest level's elements; none of them is refined.
-fn deepest(forest: &QuadForest) -> &[[NodeId; 4]] {
+fn last_elements(forest: &QuadForest) -> &[[NodeId; 4]] {
     &forest.levels.last().expect("a forest has a base level").elements
 }
 
