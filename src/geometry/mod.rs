@@ -7,6 +7,7 @@ mod centered_cylinder;
 mod closest;
 mod frame;
 mod gjk;
+mod nearest_triangle;
 mod quad_hull;
 
 pub use aabb::Aabb;
@@ -16,6 +17,7 @@ pub use centered_cylinder::CenteredCylinder;
 pub use closest::{closest_on_segment, closest_on_triangle, segment_weights, triangle_weights};
 pub use frame::Frame;
 pub use gjk::{Convex, hull_within};
+pub use nearest_triangle::NearestTriangle;
 pub use quad_hull::QuadHull;
 
 /// A point or vector in space, f64.

@@ -36,6 +36,9 @@ pub use format::Format;
 pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
     match format {
         Format::Obj => obj::read(bytes),
+        Format::Vtu => vtu::read(bytes),
+        Format::Vtk => vtk::read(bytes),
+        Format::Msh => msh::read(bytes),
         _ => Err(ReadError {
             format,
             line: None,
@@ -49,6 +52,9 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
 pub fn write(document: &Document, format: Format) -> Result<Vec<u8>, WriteError> {
     match format {
         Format::Obj => obj::write(document),
+        Format::Vtu => vtu::write(document),
+        Format::Vtk => vtk::write(document),
+        Format::Msh => msh::write(document),
         _ => Err(WriteError {
             format,
             code: "format-not-written",

@@ -1,6 +1,6 @@
 //! How far a mesh and a surface are from each other.
 
-use hexmill::geometry::{NearestTriangle, Point, Triangle};
+use hexmill::geometry::{NearestTriangle, Point};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -59,7 +59,7 @@ impl Triangles {
 
 impl Distance {
     fn from_to(from: &Triangles, to: &Triangles) -> Self {
-        let nearest = NearestTriangle::new(to.corners().map(Triangle));
+        let nearest = NearestTriangle::new(to.corners());
         let samples = from.samples();
         let distance = |&p: &Point| nearest.closest_point(p).map_or(f64::INFINITY, |q| q.distance(p));
         let distances: Vec<f64> = samples.par_iter().map(distance).collect();

@@ -1,0 +1,82 @@
+//! The point of a surface that is nearest to another point.
+
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+
+use super::{Aabb, Point, closest_on_triangle};
+
+/// Finds, among many triangles, the one that is nearest to a point: an R-tree, packed once.
+#[derive(Debug)]
+pub struct NearestTriangle {
+    tree: RTree<Leaf>,
+}
+
+/// A triangle by its corners.
+#[derive(Clone, Debug)]
+struct Leaf([Point; 3]);
+
+impl NearestTriangle {
+    /// An index of triangles with finite corners.
+    pub fn new(triangles: impl IntoIterator<Item = [Point; 3]>) -> Self {
+        Self { tree: RTree::bulk_load(triangles.into_iter().map(Leaf).collect()) }
+    }
+
+    /// The point of a triangle that is closest to `p`; `None` if there are no triangles.
+    pub fn closest_point(&self, p: Point) -> Option<Point> {
+        self.tree.nearest_neighbor(p.to_array()).map(|leaf| closest_on_triangle(p, leaf.0))
+    }
+}
+
+impl RTreeObject for Leaf {
+    type Envelope = AABB<[f64; 3]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        let bounds = Aabb::around(&self.0);
+        AABB::from_corners(bounds.min.to_array(), bounds.max.to_array())
+    }
+}
+
+impl PointDistance for Leaf {
+    fn distance_2(&self, point: &[f64; 3]) -> f64 {
+        let point = Point::from_array(*point);
+        closest_on_triangle(point, self.0).distance_squared(point)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A zigzag of triangles over the unit square, `n` times `n` pairs.
+    fn sheet(n: usize) -> Vec<[Point; 3]> {
+        let at = |i: usize, j: usize| {
+            let [x, y] = [i, j].map(|k| k as f64 / n as f64);
+            Point::new(x, y, if (i + j) % 2 == 0 { 0.0 } else { 0.1 })
+        };
+        let cell =
+            |i, j| [[at(i, j), at(i + 1, j), at(i, j + 1)], [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]];
+        (0..n * n).flat_map(|k| cell(k % n, k / n)).collect()
+    }
+
+    #[test]
+    fn the_tree_finds_what_a_walk_over_all_finds() {
+        let triangles = sheet(9);
+        let index = NearestTriangle::new(triangles.iter().copied());
+        for k in 0..200 {
+            let p = Point::new(
+                f64::from(k % 7) / 4.0 - 0.3,
+                f64::from(k % 11) / 7.0 - 0.2,
+                f64::from(k % 5) - 2.0,
+            );
+            let walked = triangles
+                .iter()
+                .map(|t| closest_on_triangle(p, *t).distance(p))
+                .fold(f64::INFINITY, f64::min);
+            assert_eq!(index.closest_point(p).unwrap().distance(p), walked, "{p}");
+        }
+    }
+
+    #[test]
+    fn no_triangles_have_no_nearest_point() {
+        assert_eq!(NearestTriangle::new([]).closest_point(Point::ZERO), None);
+    }
+}

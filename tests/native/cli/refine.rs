@@ -1,0 +1,162 @@
+//! `hexmill refine`: what it writes, and its record.
+
+use hexmill::io::{Document, obj};
+use hexmill::mesh::{PolygonMesh, check_polygons};
+use serde_json::json;
+use tempfile::TempDir;
+
+use super::{files, folder_with, hexmill, json, succeed};
+
+/// The surface in an OBJ file of `folder`.
+fn surface(folder: &TempDir, file: &str) -> PolygonMesh {
+    let document: Document = obj::read(&std::fs::read(folder.path().join(file)).unwrap()).unwrap();
+    document.into_surface().unwrap()
+}
+
+#[test]
+fn levels_divide_every_quad() {
+    let folder = folder_with("quads/pawn.obj");
+    let stdout = succeed(&folder, &["refine", "pawn.obj", "-o", "out.obj", "--levels", "2"]);
+    let mesh = surface(&folder, "out.obj");
+    assert_eq!(mesh.face_count(), 588 * 16);
+    assert!(mesh.is_all_quad());
+    assert_eq!(check_polygons(&mesh), []);
+    assert!(stdout.starts_with("out.obj: 9457 nodes, 9408 quads\n  9408 of level 2\n"), "{stdout}");
+    assert_eq!(files(&folder), ["out.obj", "pawn.obj"]);
+}
+
+#[test]
+fn triangles_and_polygons_become_quads() {
+    for (model, file) in [("solids/spot.obj", "spot.obj"), ("quads/bishop.obj", "bishop.obj")] {
+        let folder = folder_with(model);
+        let corners = surface(&folder, file).corners.len();
+        succeed(&folder, &["refine", file, "-o", "out.obj", "--levels", "1"]);
+        let mesh = surface(&folder, "out.obj");
+        assert!(mesh.is_all_quad());
+        assert_eq!(mesh.face_count(), corners, "{model}: a quad for each corner of the input");
+    }
+}
+
+#[test]
+fn edge_length_bounds_every_edge() {
+    let folder = folder_with("quads/torus_creases0.obj");
+    succeed(&folder, &["refine", "torus_creases0.obj", "-o", "out.obj", "--edge-length", "0.2"]);
+    let mesh = surface(&folder, "out.obj");
+    let length = |a: usize, b: usize| mesh.positions[a].distance(mesh.positions[b]);
+    let edges = mesh.faces().flat_map(|f| (0..4).map(|i| length(f[i].index(), f[(i + 1) % 4].index())));
+    let longest = edges.fold(0.0, f64::max);
+    assert!(longest <= 0.2 && longest > 0.05, "{longest}");
+}
+
+#[test]
+fn the_report_tells_what_is_in_the_output() {
+    let folder = folder_with("quads/bishop.obj");
+    let region = "sphere:1.747,-0.6,0.5,0.1:level=3";
+    let args =
+        ["refine", "bishop.obj", "-o", "out.obj", "--region", region, "--report", "r.json", "--threads", "2"];
+    succeed(&folder, &args);
+    let report = json(&folder, "r.json");
+    let mesh = surface(&folder, "out.obj");
+
+    assert_eq!(report["schema"], "hexmill-report/1");
+    assert_eq!(report["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(report["command"], "refine");
+    assert_eq!(report["threads"], 2);
+    assert_eq!((&report["input"]["file"], &report["input"]["format"]), (&json!("bishop.obj"), &json!("obj")));
+    assert_eq!((&report["input"]["nodes"], &report["input"]["faces"]), (&json!(917), &json!(968)));
+    assert_eq!(report["options"]["regions"], json!([region]));
+    assert_eq!(report["options"]["maxLevels"], 12);
+    assert_eq!(report["output"]["bytes"], std::fs::metadata(folder.path().join("out.obj")).unwrap().len());
+    assert_eq!(report["mesh"]["nodes"], mesh.positions.len());
+    assert_eq!(report["mesh"]["quads"], mesh.face_count());
+    assert_eq!(report["mesh"]["defects"]["conforming"], true);
+    assert_eq!(report["mesh"]["topology"]["faces"], mesh.face_count());
+
+    let levels = report["mesh"]["levels"].as_array().unwrap();
+    let cells: u64 = levels.iter().map(|level| level["cells"].as_u64().unwrap()).sum();
+    assert_eq!(cells, mesh.face_count() as u64);
+    assert_eq!(levels.last().unwrap()["level"], 3);
+
+    let jacobian = &report["mesh"]["quality"]["scaledJacobian"];
+    assert!(jacobian["min"].as_f64().unwrap() <= jacobian["mean"].as_f64().unwrap());
+    let counts = jacobian["histogram"]["counts"].as_array().unwrap();
+    assert_eq!(counts.iter().map(|n| n.as_u64().unwrap()).sum::<u64>(), mesh.face_count() as u64);
+
+    let stages: Vec<&str> =
+        report["stages"].as_array().unwrap().iter().map(|s| s["stage"].as_str().unwrap()).collect();
+    assert_eq!((stages[0], stages[stages.len() - 1]), ("read", "check"));
+    let spent: f64 =
+        report["stages"].as_array().unwrap().iter().map(|s| s["seconds"].as_f64().unwrap()).sum();
+    assert!(spent > 0.0 && spent <= report["seconds"].as_f64().unwrap());
+    if cfg!(target_os = "linux") {
+        assert!(report["peakMemoryBytes"].as_u64().unwrap() > 1 << 20);
+    }
+}
+
+#[test]
+fn the_hash_in_the_report_is_the_mesh_s_and_check_finds_it_again() {
+    let folder = folder_with("quads/helmet.obj");
+    succeed(&folder, &["refine", "helmet.obj", "-o", "out.obj", "--levels", "2", "--report", "r.json"]);
+    succeed(&folder, &["check", "out.obj", "--report", "c.json"]);
+    let hash = &json(&folder, "r.json")["mesh"]["hash"];
+    assert_eq!(hash.as_str().unwrap().len(), 32);
+    assert_eq!(hash, &json(&folder, "c.json")["mesh"]["hash"]);
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_threads() {
+    let folder = folder_with("solids/spot.obj");
+    let run = |threads: &str| {
+        let (out, report) = (format!("{threads}.obj"), format!("{threads}.json"));
+        let region = "sphere:0,0.6,0.5,0.4:level=4";
+        let args =
+            ["refine", "spot.obj", "-o", &out, "-r", region, "--threads", threads, "--report", &report, "-q"];
+        assert_eq!(succeed(&folder, &args), "", "quiet");
+        let hash = json(&folder, &report)["mesh"]["hash"].clone();
+        (hash, std::fs::read(folder.path().join(out)).unwrap())
+    };
+    let one = run("1");
+    assert!(one == run("2"));
+    assert!(one == run("4"));
+}
+
+#[test]
+fn names_are_carried_to_the_quads() {
+    let folder = folder_with("quads/helmet.obj");
+    let text = std::fs::read_to_string(folder.path().join("helmet.obj")).unwrap();
+    let named = text.replacen("\nf ", "\no shell\ng front\nusemtl steel\nf ", 1);
+    std::fs::write(folder.path().join("helmet.obj"), named).unwrap();
+    succeed(&folder, &["refine", "helmet.obj", "-o", "out.obj", "--levels", "1"]);
+    let mesh = surface(&folder, "out.obj");
+    assert_eq!(mesh.tags.of_element.len(), mesh.face_count());
+    let set = mesh.tags.of(mesh.face_count() - 1).unwrap();
+    assert_eq!((set.object.as_deref(), set.material.as_deref()), (Some("shell"), Some("steel")));
+    assert_eq!(set.groups, ["front"]);
+}
+
+#[test]
+fn an_output_that_is_there_is_replaced() {
+    let folder = folder_with("quads/helmet.obj");
+    std::fs::write(folder.path().join("out.obj"), "an older file").unwrap();
+    succeed(&folder, &["refine", "helmet.obj", "-o", "out.obj"]);
+    assert_eq!(surface(&folder, "out.obj").face_count(), 58);
+}
+
+#[test]
+fn help_shows_worked_examples() {
+    let folder = tempfile::tempdir().unwrap();
+    let help = succeed(&folder, &["refine", "--help"]);
+    for example in ["--edge-length 2", "--region sphere:0,0,0,10:h=0.5", "surface:shock.obj,1.5:h=0.25"] {
+        assert!(help.contains(example), "{example}");
+    }
+    // The examples' options are all known: each runs as far as its missing input.
+    let examples = help[help.find("Examples:").unwrap()..].replace("\\\n", " ");
+    let lines: Vec<&str> = examples.lines().map(str::trim).filter(|l| l.starts_with("hexmill ")).collect();
+    assert_eq!(lines.len(), 7, "{lines:?}");
+    for line in lines {
+        let args: Vec<&str> = line.split_whitespace().skip(1).collect();
+        let run = hexmill(&folder, &args);
+        assert_eq!(run.code, Some(1), "{line}: {}", run.stderr);
+        assert!(run.stderr.starts_with("error[file-not-read]: part.obj: cannot be read"), "{}", run.stderr);
+    }
+}
