@@ -1,0 +1,256 @@
+//! Parts put together: instances with their places, and the mesh that they make.
+
+use std::collections::HashMap;
+
+use super::lines::Keyword;
+use super::part::{ElementSet, Part};
+use super::{MATERIAL, NUMBER, OBJECT};
+use crate::geometry::Point;
+use crate::io::cell_collector::{CellAttributes, CellCollector};
+use crate::io::refusal::{code, refuse};
+use crate::io::tag_interner::CellTags;
+use crate::io::{Document, Format, ReadError};
+use crate::mesh::TagSet;
+
+/// Nodes that the instances may have together for each byte of the file: a line makes an instance, so
+/// that a small file could ask for any amount of memory.
+const NODES_PER_BYTE: usize = 64;
+
+/// Everything in a file.
+pub(super) struct Model {
+    /// The size of the file.
+    size: usize,
+    /// What stands outside of parts, then the parts.
+    parts: Vec<Part>,
+    part_of_name: HashMap<String, usize>,
+    instances: Vec<Instance>,
+    instance_of_name: HashMap<String, usize>,
+    current: usize,
+    in_instance: bool,
+}
+
+struct Instance {
+    part: usize,
+    placement: Placement,
+}
+
+/// Where an instance stands: moved, then turned about an axis.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Placement {
+    translation: Point,
+    /// A point of the axis, its unit direction, the cosine and the sine of the angle.
+    rotation: Option<(Point, Point, f64, f64)>,
+}
+
+impl Placement {
+    /// From the numbers of `*INSTANCE`: the translation, two points of the axis, the angle in degrees.
+    pub fn new(numbers: [f64; 10]) -> Self {
+        let point = |i: usize| Point::new(numbers[i], numbers[i + 1], numbers[i + 2]);
+        let (from, to) = (point(3), point(6));
+        let angle = numbers[9].to_radians();
+        let direction = (to - from).normalize_or_zero();
+        let turned = angle != 0.0 && direction != Point::ZERO;
+        Self {
+            translation: point(0),
+            rotation: turned.then(|| (from, direction, libm::cos(angle), libm::sin(angle))),
+        }
+    }
+
+    /// Rodrigues' rotation of the moved point.
+    fn apply(&self, point: Point) -> Point {
+        let moved = point + self.translation;
+        let Some((origin, axis, cos, sin)) = self.rotation else { return moved };
+        let arm = moved - origin;
+        origin + arm * cos + axis.cross(arm) * sin + axis * (axis.dot(arm) * (1.0 - cos))
+    }
+}
+
+impl Model {
+    /// An empty model for a file of `size` bytes.
+    pub fn new(size: usize) -> Self {
+        Self {
+            size,
+            parts: vec![Part::new(size)],
+            part_of_name: HashMap::new(),
+            instances: Vec::new(),
+            instance_of_name: HashMap::new(),
+            current: 0,
+            in_instance: false,
+        }
+    }
+
+    /// The part that keywords now speak of.
+    pub fn current(&mut self, keyword: &Keyword) -> Result<&mut Part, ReadError> {
+        if self.in_instance {
+            let message = format!("*{} within *INSTANCE is not read — put it into the part", keyword.name);
+            return Err(keyword.refuse(code::UNSUPPORTED_FEATURE, message));
+        }
+        Ok(&mut self.parts[self.current])
+    }
+
+    /// The instance with this name, and its part.
+    pub fn instance(&mut self, name: &str, keyword: &Keyword) -> Result<(usize, &mut Part), ReadError> {
+        let Some(&instance) = self.instance_of_name.get(&name.to_ascii_uppercase()) else {
+            let message = format!("the instance '{name}' stands nowhere before this line");
+            return Err(keyword.refuse(code::INCONSISTENT, message));
+        };
+        Ok((instance, &mut self.parts[self.instances[instance].part]))
+    }
+
+    /// Begins a part.
+    pub fn begin_part(&mut self, keyword: &Keyword) -> Result<(), ReadError> {
+        let name = keyword.require("NAME")?;
+        if self.part_of_name.insert(name.to_ascii_uppercase(), self.parts.len()).is_some() {
+            let message = format!("the part '{name}' comes twice — give one of the two another name");
+            return Err(keyword.refuse(code::INCONSISTENT, message));
+        }
+        self.current = self.parts.len();
+        self.parts.push(Part::new(self.size));
+        Ok(())
+    }
+
+    /// Ends a part.
+    pub fn end_part(&mut self) {
+        self.current = 0;
+    }
+
+    /// Begins an instance of a part.
+    pub fn begin_instance(&mut self, keyword: &Keyword, placement: Placement) -> Result<(), ReadError> {
+        let (name, part_name) = (keyword.require("NAME")?, keyword.require("PART")?);
+        let Some(&part) = self.part_of_name.get(&part_name.to_ascii_uppercase()) else {
+            let message = format!("the part '{part_name}' stands nowhere before this line");
+            return Err(keyword.refuse(code::INCONSISTENT, message));
+        };
+        self.instance_of_name.insert(name.to_ascii_uppercase(), self.instances.len());
+        self.instances.push(Instance { part, placement });
+        self.in_instance = true;
+        Ok(())
+    }
+
+    /// Ends an instance.
+    pub fn end_instance(&mut self) {
+        self.in_instance = false;
+    }
+
+    /// The mesh of all instances; of all parts where there are none.
+    pub fn into_document(self) -> Result<Document, ReadError> {
+        let placed = self.placed();
+        let count: usize = placed.iter().map(|(_, instance)| self.parts[instance.part].positions.len()).sum();
+        if count > self.size.saturating_mul(NODES_PER_BYTE) {
+            let message = format!("the instances have {count} nodes together, more than this reader takes");
+            return Err(refuse(Format::Inp, None, code::TOO_LARGE, message));
+        }
+        let mut positions = Vec::with_capacity(count);
+        let mut collector = CellCollector::new(Format::Inp, count, 0);
+        let mut tags = CellTags::default();
+        for (index, instance) in placed {
+            let part = &self.parts[instance.part];
+            let first = positions.len() as i64;
+            positions.extend(part.positions.iter().map(|&point| instance.placement.apply(point)));
+            collect(part, index, first, &mut collector, &mut tags)?;
+        }
+        let attributes = CellAttributes { tags: Some(tags), ..CellAttributes::default() };
+        collector.finish(positions, attributes)
+    }
+
+    /// What makes up the mesh, with the index of each that is an instance by name. Nodes outside of parts
+    /// belong to it only if elements do: else they are reference points.
+    fn placed(&self) -> Vec<(Option<usize>, Instance)> {
+        let whole = |part| (None, Instance { part, placement: Placement::default() });
+        let mut placed = Vec::new();
+        if self.parts.len() == 1 || !self.parts[0].elements.is_empty() {
+            placed.push(whole(0));
+        }
+        if self.instances.is_empty() {
+            placed.extend((1..self.parts.len()).map(whole));
+        }
+        let named = self.instances.iter().enumerate();
+        placed.extend(
+            named.map(|(index, i)| (Some(index), Instance { part: i.part, placement: i.placement })),
+        );
+        placed
+    }
+}
+
+/// Hands the elements of a part to the collector, in the order of their numbers.
+fn collect(
+    part: &Part,
+    instance: Option<usize>,
+    first_node: i64,
+    collector: &mut CellCollector,
+    tags: &mut CellTags,
+) -> Result<(), ReadError> {
+    let set_of_element = sets_of_elements(part, instance, tags);
+    let mut order: Vec<u32> = (0..part.elements.len() as u32).collect();
+    order.sort_by_key(|&element| part.elements[element as usize].number);
+    let mut nodes = [0; 8];
+    for element in order {
+        let set = set_of_element[element as usize];
+        let element = &part.elements[element as usize];
+        let indices = part.nodes_of(element);
+        let nodes = &mut nodes[..indices.len()];
+        for (node, &index) in nodes.iter_mut().zip(indices) {
+            *node = first_node + i64::from(index);
+        }
+        collector.push(element.kind, nodes, Some(element.line))?;
+        tags.push(set);
+    }
+    Ok(())
+}
+
+/// For each element of the part the tag set that its element sets make.
+fn sets_of_elements(part: &Part, instance: Option<usize>, tags: &mut CellTags) -> Vec<u32> {
+    // A combination of element sets is one more set than another combination; the first is of none.
+    let mut combinations: Vec<(u32, u32)> = vec![(0, 0)];
+    let mut of_element: Vec<u32> = vec![0; part.elements.len()];
+    for (index, set) in (0..).zip(&part.sets) {
+        if set.instance.is_some() && set.instance != instance {
+            continue;
+        }
+        let mut grown: HashMap<u32, u32> = HashMap::new();
+        for &member in &set.members {
+            let combination = &mut of_element[member as usize];
+            *combination = *grown.entry(*combination).or_insert_with(|| {
+                combinations.push((*combination, index));
+                combinations.len() as u32 - 1
+            });
+        }
+    }
+    let mut tag_set: HashMap<u32, u32> = HashMap::new();
+    for combination in &mut of_element {
+        *combination = *tag_set
+            .entry(*combination)
+            .or_insert_with(|| tags.intern(tag_set_of(*combination, &combinations, &part.sets)));
+    }
+    of_element
+}
+
+/// The tag set of a combination of element sets, with the groups in the order of the file.
+fn tag_set_of(mut combination: u32, combinations: &[(u32, u32)], sets: &[ElementSet]) -> TagSet {
+    let mut names = Vec::new();
+    while combination != 0 {
+        let (rest, set) = combinations[combination as usize];
+        names.push(&sets[set as usize].name);
+        combination = rest;
+    }
+    let mut set = TagSet::default();
+    names.into_iter().rev().for_each(|name| add_label(&mut set, name));
+    set
+}
+
+/// Adds what the name of an element set says.
+fn add_label(set: &mut TagSet, name: &str) {
+    let rest = |prefix: &str| {
+        let (start, rest) = name.split_at_checked(prefix.len())?;
+        start.eq_ignore_ascii_case(prefix).then_some(rest)
+    };
+    if let Some(number) = rest(NUMBER).and_then(|number| number.parse().ok()) {
+        set.number = Some(number);
+    } else if let Some(object) = rest(OBJECT) {
+        set.object = Some(object.to_owned());
+    } else if let Some(material) = rest(MATERIAL) {
+        set.material = Some(material.to_owned());
+    } else {
+        set.groups.push(name.to_owned());
+    }
+}
