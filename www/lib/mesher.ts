@@ -1,6 +1,6 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { Engine } from './engine.js';
-import type { SurfaceRecord } from './engine.js';
+import type { Desk, SurfaceRecord } from './engine.js';
 import { HexmillError, InputError, InternalError, OptionsError } from './errors.js';
 import { inputFormat, plainOptions } from './options.js';
 import type {
@@ -13,7 +13,6 @@ import type {
   SurfaceInput,
 } from './options.js';
 import type { Platform, WasmFile } from './platform.js';
-import type { Desk } from './engine.js';
 import type { QuadArrays, QuadData, SurfaceData, SurfaceSource } from './protocol.js';
 import type { Estimate, MeshQuality, Metric, SurfaceInfo } from './results.js';
 
@@ -72,14 +71,15 @@ export class Mesher {
   /** Threads that compute. */
   readonly threads: number;
   readonly #engine: Engine;
-  readonly #collected: FinalizationRegistry<number>;
+  /** Frees a surface in the worker when neither it nor a mesh made from it can be reached any more. */
+  readonly #unreachable: FinalizationRegistry<number>;
   #surfaces = 0;
 
   /** @internal */
   constructor(engine: Engine, threads: number) {
     this.#engine = engine;
     this.threads = threads;
-    this.#collected = new FinalizationRegistry((surface) => engine.drop(surface));
+    this.#unreachable = new FinalizationRegistry((surface) => engine.drop(surface));
   }
 
   /**
@@ -90,9 +90,8 @@ export class Mesher {
   async load(input: SurfaceInput, options: InputOptions & CallOptions = {}): Promise<Surface> {
     const record: SurfaceRecord = { id: ++this.#surfaces, source: await sourceOf(input, options) };
     const data = await this.#engine.run((desk) => desk.load(record), options);
-    const surface = new Surface(this, record, data);
-    this.#collected.register(surface, record.id, surface);
-    return surface;
+    this.#unreachable.register(record, record.id);
+    return new Surface(this, record, data);
   }
 
   /**
@@ -145,8 +144,7 @@ export class Mesher {
   }
 
   /** @internal */
-  dispose(surface: Surface, record: SurfaceRecord): void {
-    this.#collected.unregister(surface);
+  free(record: SurfaceRecord): void {
     this.#engine.drop(record.id);
   }
 
@@ -184,7 +182,7 @@ export class Surface {
   dispose(): void {
     if (this.#disposed) return;
     this.#disposed = true;
-    this.#mesher.dispose(this, this.#record);
+    this.#mesher.free(this.#record);
   }
 
   /** The same as {@link Surface.dispose}, for `using`. */
