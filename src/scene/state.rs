@@ -6,7 +6,7 @@ use glam::{DMat4, DVec2, Mat4, Vec4};
 
 use super::{
     Axis, Background, Bvh, Camera, Drag, Frame, FrontBuffers, Grip, Handle, Hit, Placement, Projection,
-    RegionBuffers, Surface, Viewport, handle, overlay,
+    RegionBuffers, Surface, Viewport, camera::corners, handle, overlay,
 };
 use crate::{
     geometry::{Aabb, Point},
@@ -254,8 +254,16 @@ impl Scene {
 
     /// The camera that shows everything from where it looks now.
     pub fn framed(&self) -> Camera {
-        let mut camera = self.camera;
-        camera.frame(&self.bounds(), self.viewport);
+        self.framing(self.camera)
+    }
+
+    /// `camera` moved to where it shows everything.
+    fn framing(&self, mut camera: Camera) -> Camera {
+        let frame = self.frame();
+        let surface = self.surface.iter().flat_map(|s| s.positions());
+        let surface = surface.map(move |p| frame.world(p.as_dvec3()));
+        let regions = self.placements.iter().flatten().flat_map(|p| corners(&p.bounds()));
+        camera.frame(surface.chain(regions), self.viewport);
         camera
     }
 
@@ -264,7 +272,8 @@ impl Scene {
         let surface = self.surface.as_ref().filter(|s| face < s.face_count())?;
         let bounds = surface.face_bounds(face);
         let mut camera = self.camera;
-        camera.frame(&bounds.grown(FACE_SURROUNDINGS * bounds.diagonal()), self.viewport);
+        let around = bounds.grown(FACE_SURROUNDINGS * bounds.diagonal());
+        camera.frame(corners(&around), self.viewport);
         Some(camera)
     }
 
@@ -272,8 +281,7 @@ impl Scene {
     pub fn along(&self, axis: Axis) -> Camera {
         let mut camera = self.camera;
         camera.look_along(axis);
-        camera.frame(&self.bounds(), self.viewport);
-        camera
+        self.framing(camera)
     }
 
     /// Scales the distance to `anchor`, within reason: neither through the surface's own digits nor so
