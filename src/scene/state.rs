@@ -147,10 +147,15 @@ impl Scene {
         Some(&self.regions[selected])
     }
 
-    /// Takes hold of what is under a pixel: [`Scene::orbit`] turns about it, [`Scene::pan`] makes it
-    /// follow the pointer.
+    /// Takes hold of the surface under a pixel, or of the middle: [`Scene::orbit`] turns about it,
+    /// [`Scene::pan`] makes it follow the pointer.
     pub fn grab(&mut self, pixel: DVec2) {
-        self.grabbed = Some(self.pivot_under(pixel));
+        self.grabbed = Some(self.pick(pixel).map_or_else(|| self.middle(), |hit| hit.point));
+    }
+
+    /// As [`Scene::grab`] where there is no surface.
+    pub fn grab_middle(&mut self) {
+        self.grabbed = Some(self.middle());
     }
 
     /// Lets go of what was grabbed or dragged.
@@ -244,12 +249,11 @@ impl Scene {
         )
     }
 
-    /// What to turn about when a drag starts at a pixel: the point on the surface, or else the middle of
-    /// all that is shown.
-    pub fn pivot_under(&self, pixel: DVec2) -> Point {
+    /// What to turn about where there is no surface: the chosen point, or the middle of all that is shown.
+    fn middle(&self) -> Point {
         let bounds = self.bounds();
         let middle = if bounds.is_empty() { self.camera.target() } else { bounds.center() };
-        self.pick(pixel).map_or(self.pivot.unwrap_or(middle), |hit| hit.point)
+        self.pivot.unwrap_or(middle)
     }
 
     /// The camera that shows everything from where it looks now.
