@@ -177,11 +177,6 @@ impl MeshDrawable {
     pub fn bytes(&self) -> usize {
         self.bytes
     }
-
-    /// Draw calls a frame.
-    pub fn draw_calls(&self) -> usize {
-        self.chunks.len()
-    }
 }
 
 fn entry(binding: u32, resource: wgpu::BindingResource<'_>) -> wgpu::BindGroupEntry<'_> {

@@ -130,9 +130,9 @@ impl Renderer {
         self.regions_changed = true;
     }
 
-    /// Bytes of the surface on the device, and draw calls a frame.
-    pub fn mesh_cost(&self) -> (usize, usize) {
-        self.mesh.as_ref().map_or((0, 0), |m| (m.bytes(), m.draw_calls()))
+    /// Bytes of the surface on the device.
+    pub fn mesh_bytes(&self) -> usize {
+        self.mesh.as_ref().map_or(0, MeshDrawable::bytes)
     }
 
     /// Draws a frame.

@@ -131,7 +131,7 @@ impl Default for Camera {
             projection: Projection::default(),
         };
         camera.turn_to(Axis::Iso);
-        camera.frame(&unit, Viewport { width: 1.0, height: 1.0 });
+        camera.frame(corners(&unit), Viewport { width: 1.0, height: 1.0 });
         camera
     }
 }
@@ -194,26 +194,36 @@ impl Camera {
         };
     }
 
-    /// Moves back or forth until `bounds` fill the viewport.
-    pub fn frame(&mut self, bounds: &Aabb, viewport: Viewport) {
-        if bounds.is_empty() {
+    /// Moves until the points fill the viewport, as near as they all can be seen. Without points nothing
+    /// happens.
+    pub fn frame(&mut self, points: impl IntoIterator<Item = Point>, viewport: Viewport) {
+        let [right, up, forward] = self.axes();
+        let tangents = tangents(viewport) / FRAME_MARGIN;
+        // How far the points reach beyond each side of a pyramid whose tip is at the origin, or of a shaft.
+        let slope = if self.projection == Projection::Perspective { tangents } else { DVec2::ZERO };
+        let mut reach = [DVec2::NEG_INFINITY; 2];
+        let mut depths = Aabb::EMPTY;
+        for p in points {
+            let (lateral, depth) = (DVec2::new(p.dot(right), p.dot(up)), p.dot(forward));
+            reach = [reach[0].max(lateral - slope * depth), reach[1].max(-lateral - slope * depth)];
+            depths = depths.with(DVec3::splat(depth));
+        }
+        if depths.is_empty() {
             return;
         }
-        let [right, up, forward] = self.axes();
-        let center = bounds.center();
-        let (tan_x, tan_y) = tangents(viewport);
-        // A corner at depth d + z is inside if |x| <= (d + z) tan_x; the orthographic view is as wide
-        // at all depths.
-        let perspective = f64::from(u8::from(self.projection == Projection::Perspective));
-        let needed = corners(bounds)
-            .map(|c| {
-                let v = c - center;
-                let lateral = (v.dot(right).abs() / tan_x).max(v.dot(up).abs() / tan_y);
-                lateral * FRAME_MARGIN - v.dot(forward) * perspective
-            })
-            .fold(0.0, f64::max);
-        self.distance = if needed > 0.0 { needed } else { 1.0 };
-        self.eye = center - forward * self.distance;
+        // The tip goes to the middle between opposite sides, and back until both are behind the points.
+        let middle = (reach[0] - reach[1]) * 0.5;
+        let needed = ((reach[0] + reach[1]) * 0.5 / tangents).max_element();
+        let focus = depths.center().x;
+        let distance = match self.projection {
+            Projection::Perspective => focus + needed,
+            Projection::Orthographic => needed,
+        };
+        // A single point says nothing of the distance.
+        if distance > f64::EPSILON * (focus.abs() + middle.abs().max_element()) {
+            self.distance = distance;
+        }
+        self.eye = right * middle.x + up * middle.y + forward * (focus - self.distance);
     }
 
     /// Size of a pixel at the depth of a point, in world units.
@@ -222,13 +232,13 @@ impl Camera {
             Projection::Perspective => (at - self.eye).dot(self.axes()[2]).max(self.distance * NEAR_SHARE),
             Projection::Orthographic => self.distance,
         };
-        2.0 * depth * tangents(viewport).1 / viewport.height
+        2.0 * depth * tangents(viewport).y / viewport.height
     }
 
     /// The ray through a pixel.
     pub fn ray(&self, pixel: DVec2, viewport: Viewport) -> Ray {
         let [right, up, forward] = self.axes();
-        let (tan_x, tan_y) = tangents(viewport);
+        let DVec2 { x: tan_x, y: tan_y } = tangents(viewport);
         let x = (pixel.x / viewport.width * 2.0 - 1.0) * tan_x;
         let y = (1.0 - pixel.y / viewport.height * 2.0) * tan_y;
         let lateral = right * x + up * y;
@@ -250,7 +260,7 @@ impl Camera {
             Projection::Perspective => v.dot(forward),
             Projection::Orthographic => self.distance,
         };
-        let (tan_x, tan_y) = tangents(viewport);
+        let DVec2 { x: tan_x, y: tan_y } = tangents(viewport);
         let x = v.dot(right) / (depth * tan_x);
         let y = v.dot(up) / (depth * tan_y);
         (depth > 0.0).then(|| DVec2::new((x + 1.0) * 0.5 * viewport.width, (1.0 - y) * 0.5 * viewport.height))
@@ -268,7 +278,7 @@ impl Camera {
     pub fn clip_from_world(&self, bounds: &Aabb, viewport: Viewport) -> DMat4 {
         let [right, up, forward] = self.axes();
         let (near, far) = self.depths(bounds);
-        let (tan_x, tan_y) = tangents(viewport);
+        let DVec2 { x: tan_x, y: tan_y } = tangents(viewport);
         let view_from_world = DMat4::from_cols(
             DVec4::new(right.x, up.x, forward.x, 0.0),
             DVec4::new(right.y, up.y, forward.y, 0.0),
@@ -324,13 +334,13 @@ impl Camera {
 }
 
 /// Tangents of half the field of view, across and up.
-fn tangents(viewport: Viewport) -> (f64, f64) {
+fn tangents(viewport: Viewport) -> DVec2 {
     let aspect = viewport.width / viewport.height;
-    let tan = (FIELD_OF_VIEW * 0.5).tan();
-    (tan * aspect, tan)
+    DVec2::new(aspect, 1.0) * (FIELD_OF_VIEW * 0.5).tan()
 }
 
-fn corners(bounds: &Aabb) -> impl Iterator<Item = Point> {
+/// The corners of a box; none of an empty one.
+pub(super) fn corners(bounds: &Aabb) -> impl Iterator<Item = Point> + use<> {
     let ends = [bounds.min, bounds.max];
     let count = if bounds.is_empty() { 0 } else { 8 };
     (0..count).map(move |i: usize| Point::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
@@ -352,7 +362,7 @@ mod tests {
     fn framed(projection: Projection, axis: Axis) -> Camera {
         let mut camera = Camera { projection, ..Camera::default() };
         camera.look_along(axis);
-        camera.frame(&part(), VIEW);
+        camera.frame(corners(&part()), VIEW);
         camera
     }
 
@@ -374,7 +384,10 @@ mod tests {
                     near(at, DVec2::new((clip.x + 1.0) * 400.0, (1.0 - clip.y) * 250.0));
                     reach = reach.max(clip.truncate().abs());
                 }
-                assert!(reach.max_element() > 0.6, "{projection:?} {axis:?} {reach}");
+                assert!(
+                    (reach.max_element() - 1.0 / FRAME_MARGIN).abs() < 1e-9,
+                    "{projection:?} {axis:?} {reach}"
+                );
             }
         }
     }

@@ -3,7 +3,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, Vec3};
 
-use super::{Frame, Grip, Handle, Placement, Rgba, Scene, Theme};
+use super::{Frame, Grip, Handle, Placement, Rgba, Scene, Solid, Theme};
 use crate::geometry::Point;
 
 /// A corner of a translucent surface.
@@ -66,12 +66,15 @@ pub struct FrontBuffers {
     pub discs: Vec<Disc>,
 }
 
-/// Opacity of a region where it faces the eye, the selected one's, and of outlines.
-const OPACITY: u8 = 26;
-const OPACITY_SELECTED: u8 = 40;
+/// Opacity of a region where it faces the eye, and the selected one's.
+const OPACITY: u8 = 20;
+const OPACITY_SELECTED: u8 = 34;
 /// Widths and radii in CSS pixels.
 const OUTLINE: f32 = 1.25;
-const OUTLINE_SELECTED: f32 = 2.0;
+const OUTLINE_SELECTED: f32 = 1.75;
+/// Opacity of outlines; the circles of a ball are only there to show that it is round.
+const OUTLINE_OPACITY: u8 = 230;
+const CIRCLE_OPACITY: u8 = 110;
 const KNOB: f32 = 6.5;
 const KNOB_HOVERED: f32 = 8.5;
 const KNOB_RING: f32 = 2.0;
@@ -99,6 +102,7 @@ pub(super) fn region_buffers(
         let colour = if is_selected { theme.selected } else { theme.region };
         let opacity = if is_selected { OPACITY_SELECTED } else { OPACITY };
         let width = if is_selected { OUTLINE_SELECTED } else { OUTLINE };
+        let line_opacity = if placement.solid == Solid::Ball { CIRCLE_OPACITY } else { OUTLINE_OPACITY };
         out.solids.extend(placement.surface().into_iter().map(|p| {
             let n = (p.normal * 127.0).round();
             SolidVertex {
@@ -111,7 +115,7 @@ pub(super) fn region_buffers(
             from: frame.scene(a),
             to: frame.scene(b),
             width,
-            colour,
+            colour: with_alpha(colour, line_opacity),
         }));
     }
     out

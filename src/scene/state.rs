@@ -6,7 +6,7 @@ use glam::{DMat4, DVec2, Mat4, Vec4};
 
 use super::{
     Axis, Background, Bvh, Camera, Drag, Frame, FrontBuffers, Grip, Handle, Hit, Placement, Projection,
-    RegionBuffers, Surface, Viewport, handle, overlay,
+    RegionBuffers, Surface, Viewport, camera::corners, handle, overlay,
 };
 use crate::{
     geometry::{Aabb, Point},
@@ -147,10 +147,15 @@ impl Scene {
         Some(&self.regions[selected])
     }
 
-    /// Takes hold of what is under a pixel: [`Scene::orbit`] turns about it, [`Scene::pan`] makes it
-    /// follow the pointer.
+    /// Takes hold of the surface under a pixel, or of the middle: [`Scene::orbit`] turns about it,
+    /// [`Scene::pan`] makes it follow the pointer.
     pub fn grab(&mut self, pixel: DVec2) {
-        self.grabbed = Some(self.pivot_under(pixel));
+        self.grabbed = Some(self.pick(pixel).map_or_else(|| self.middle(), |hit| hit.point));
+    }
+
+    /// As [`Scene::grab`] where there is no surface.
+    pub fn grab_middle(&mut self) {
+        self.grabbed = Some(self.middle());
     }
 
     /// Lets go of what was grabbed or dragged.
@@ -244,18 +249,25 @@ impl Scene {
         )
     }
 
-    /// What to turn about when a drag starts at a pixel: the point on the surface, or else the middle of
-    /// all that is shown.
-    pub fn pivot_under(&self, pixel: DVec2) -> Point {
+    /// What to turn about where there is no surface: the chosen point, or the middle of all that is shown.
+    fn middle(&self) -> Point {
         let bounds = self.bounds();
         let middle = if bounds.is_empty() { self.camera.target() } else { bounds.center() };
-        self.pick(pixel).map_or(self.pivot.unwrap_or(middle), |hit| hit.point)
+        self.pivot.unwrap_or(middle)
     }
 
     /// The camera that shows everything from where it looks now.
     pub fn framed(&self) -> Camera {
-        let mut camera = self.camera;
-        camera.frame(&self.bounds(), self.viewport);
+        self.framing(self.camera)
+    }
+
+    /// `camera` moved to where it shows everything.
+    fn framing(&self, mut camera: Camera) -> Camera {
+        let frame = self.frame();
+        let surface = self.surface.iter().flat_map(|s| s.positions());
+        let surface = surface.map(move |p| frame.world(p.as_dvec3()));
+        let regions = self.placements.iter().flatten().flat_map(|p| corners(&p.bounds()));
+        camera.frame(surface.chain(regions), self.viewport);
         camera
     }
 
@@ -264,7 +276,8 @@ impl Scene {
         let surface = self.surface.as_ref().filter(|s| face < s.face_count())?;
         let bounds = surface.face_bounds(face);
         let mut camera = self.camera;
-        camera.frame(&bounds.grown(FACE_SURROUNDINGS * bounds.diagonal()), self.viewport);
+        let around = bounds.grown(FACE_SURROUNDINGS * bounds.diagonal());
+        camera.frame(corners(&around), self.viewport);
         Some(camera)
     }
 
@@ -272,8 +285,7 @@ impl Scene {
     pub fn along(&self, axis: Axis) -> Camera {
         let mut camera = self.camera;
         camera.look_along(axis);
-        camera.frame(&self.bounds(), self.viewport);
-        camera
+        self.framing(camera)
     }
 
     /// Scales the distance to `anchor`, within reason: neither through the surface's own digits nor so

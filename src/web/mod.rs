@@ -3,6 +3,8 @@
 //! Three modules are built from this crate, each by a feature: the mesher on one thread (`mesher`), the mesher on
 //! a pool of workers (`threads`) and the renderer (`viewer`). See `scripts/build-wasm.mjs`.
 
+#[cfg(all(feature = "viewer", target_arch = "wasm32"))]
+mod drawn_region;
 #[cfg(feature = "mesher")]
 mod errors;
 #[cfg(feature = "mesher")]

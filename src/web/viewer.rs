@@ -6,6 +6,7 @@ use glam::DVec2;
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
+use super::drawn_region::DrawnRegion;
 use crate::{
     render::Renderer,
     scene::{
@@ -66,10 +67,10 @@ impl Viewer {
         Ok(Self { scene: Scene::default(), renderer, flight: None })
     }
 
-    /// Fits a canvas of `width` by `height` CSS pixels with `ratio` device pixels each.
-    pub fn resize(&mut self, width: f64, height: f64, ratio: f64) {
+    /// Fits a canvas of `width` by `height` CSS pixels, and of how many device pixels.
+    pub fn resize(&mut self, width: f64, height: f64, device_width: u32, device_height: u32) {
         self.scene.viewport = Viewport { width: width.max(1.0), height: height.max(1.0) };
-        self.renderer.resize((width * ratio).round() as u32, (height * ratio).round() as u32);
+        self.renderer.resize(device_width, device_height);
     }
 
     /// Shows a surface: three coordinates a node, and where each face's corners start and the last ends
@@ -83,6 +84,7 @@ impl Viewer {
         keep_camera: bool,
     ) -> Result<(), JsError> {
         let surface = Surface::new(nodes, offsets, corners).map_err(error)?;
+        self.clear_mesh()?;
         self.renderer.set_surface(Some(&surface)).map_err(error)?;
         self.scene.set_surface(Some(surface));
         self.renderer.regions_changed();
@@ -167,8 +169,9 @@ impl Viewer {
     /// Replaces the regions; the selected one shows its handles.
     #[wasm_bindgen(js_name = setRegions)]
     pub fn set_regions(&mut self, regions: JsValue, selected: Option<u32>) -> Result<(), JsError> {
-        let regions: Vec<Shape> = serde_wasm_bindgen::from_value(regions)?;
-        self.scene.set_regions(regions, selected.map(|i| i as usize));
+        let regions: Vec<DrawnRegion> = serde_wasm_bindgen::from_value(regions)?;
+        let shapes = regions.into_iter().map(Shape::from).collect();
+        self.scene.set_regions(shapes, selected.map(|i| i as usize));
         self.renderer.regions_changed();
         Ok(())
     }
@@ -209,13 +212,21 @@ impl Viewer {
     #[wasm_bindgen(js_name = dragTo)]
     pub fn drag_to(&mut self, x: f64, y: f64) -> Result<JsValue, JsError> {
         self.renderer.regions_changed();
-        Ok(serde_wasm_bindgen::to_value(&self.scene.drag_to(DVec2::new(x, y)))?)
+        let shape = self.scene.drag_to(DVec2::new(x, y));
+        Ok(serde_wasm_bindgen::to_value(&shape.and_then(DrawnRegion::of))?)
     }
 
     /// Takes hold of what is under a pixel: `orbit` turns about it, `pan` makes it follow.
     pub fn grab(&mut self, x: f64, y: f64) {
         self.flight = None;
         self.scene.grab(DVec2::new(x, y));
+    }
+
+    /// Takes hold of the pivot or of the middle of all that is shown, as `grab` beside the surface.
+    #[wasm_bindgen(js_name = grabMiddle)]
+    pub fn grab_middle(&mut self) {
+        self.flight = None;
+        self.scene.grab_middle();
     }
 
     /// Lets go of what was grabbed or dragged.
@@ -304,12 +315,6 @@ impl Viewer {
     /// Bytes of the mesh on the device.
     #[wasm_bindgen(js_name = meshBytes)]
     pub fn mesh_bytes(&self) -> usize {
-        self.renderer.mesh_cost().0
-    }
-
-    /// Draw calls for the mesh.
-    #[wasm_bindgen(js_name = drawCalls)]
-    pub fn draw_calls(&self) -> usize {
-        self.renderer.mesh_cost().1
+        self.renderer.mesh_bytes()
     }
 }

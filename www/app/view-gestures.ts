@@ -9,6 +9,8 @@
 export type Actions = {
   /** A pointer goes down. `reach`: how far from a handle it may be, in pixels. */
   press(x: number, y: number, reach: number): 'camera' | 'handle';
+  /** Takes hold of the middle of the model, for keys. */
+  grabMiddle(): void;
   /** The pressed handle goes to a position. */
   drag(x: number, y: number): void;
   /** The pointer that was pressed goes up. */
@@ -143,7 +145,13 @@ export function listenForGestures(canvas: HTMLCanvasElement, actions: Actions, s
   });
 }
 
-function keyAction(key: string, shift: boolean, canvas: HTMLElement, actions: Actions): (() => void) | undefined {
+/** What a key does, if it means anything to a view. */
+export function keyAction(
+  key: string,
+  shift: boolean,
+  canvas: { clientWidth: number; clientHeight: number },
+  actions: Actions,
+): (() => void) | undefined {
   const middle = { x: canvas.clientWidth / 2, y: canvas.clientHeight / 2 };
   const arrows: Record<string, [number, number]> = {
     ArrowLeft: [1, 0],
@@ -155,7 +163,7 @@ function keyAction(key: string, shift: boolean, canvas: HTMLElement, actions: Ac
   if (arrow) {
     const [x, y] = arrow;
     return () => {
-      actions.press(-1, -1, 0);
+      actions.grabMiddle();
       if (shift) actions.pan(x * KEY_PAN, y * KEY_PAN);
       else actions.orbit(x * KEY_TURN, y * KEY_TURN);
       actions.release();

@@ -45,7 +45,10 @@ export type FaceHit = { face: number; point: Vector };
 export type DragPhase = 'drag' | 'end';
 
 export interface View {
-  /** Shows a mesh, or none. The camera frames it unless `keepCamera`. The arrays must not change later. */
+  /**
+   * Shows a mesh, or none. The camera frames it unless `keepCamera`. The arrays must not change later.
+   * @throws {ViewError} The mesh is broken, or larger than the graphics driver allows.
+   */
   setMesh(mesh: DrawMesh | null, options?: { keepCamera?: boolean }): void;
   setColouring(colouring: Colouring): void;
   setStyle(style: Partial<Style>): void;
@@ -68,8 +71,8 @@ export interface View {
   onLost(callback: (message: string) => void): void;
   /** Called when drawing is possible again. */
   onRestored(callback: () => void): void;
-  /** `frameMs`: what the last frame cost the page. */
-  stats(): { frameMs: number; faces: number; nodes: number };
+  /** `frameMs`: what the last frame cost the page. `gpuBytes`: what the mesh takes on the graphics device. */
+  stats(): { frameMs: number; faces: number; nodes: number; gpuBytes: number };
   dispose(): void;
 }
 
@@ -152,7 +155,7 @@ class CanvasView implements View {
   constructor(canvas: HTMLCanvasElement, module: Module) {
     this.#canvas = canvas;
     this.#module = module;
-    this.#observer = new ResizeObserver(() => this.#resize());
+    this.#observer = new ResizeObserver(([entry]) => this.#resize(entry?.devicePixelContentBoxSize?.[0]));
   }
 
   async start(): Promise<void> {
@@ -163,7 +166,12 @@ class CanvasView implements View {
       throw new ViewError(`The 3D viewer could not start: ${messageOf(cause)}.`);
     }
     this.#resize();
-    this.#observer.observe(this.#canvas);
+    try {
+      // Exact device pixels, and a call when the window goes to a screen of another density.
+      this.#observer.observe(this.#canvas, { box: 'device-pixel-content-box' });
+    } catch {
+      this.#observer.observe(this.#canvas);
+    }
     this.#canvas.addEventListener('webglcontextlost', (event) => this.#lose(event), { signal });
     this.#canvas.addEventListener('webglcontextrestored', () => void this.#restore(), { signal });
     listenForGestures(this.#canvas, this.#actions(), signal);
@@ -245,10 +253,10 @@ class CanvasView implements View {
     });
   }
 
-  stats(): { frameMs: number; faces: number; nodes: number } {
+  stats(): { frameMs: number; faces: number; nodes: number; gpuBytes: number } {
     const { nodes, offsets, corners } = this.#mesh ?? { nodes: [], offsets: null, corners: [] };
     const faces = offsets ? offsets.length - 1 : corners.length / 4;
-    return { frameMs: this.#frameMs, faces, nodes: nodes.length / 3 };
+    return { frameMs: this.#frameMs, faces, nodes: nodes.length / 3, gpuBytes: this.#viewer?.meshBytes() ?? 0 };
   }
 
   dispose(): void {
@@ -262,8 +270,19 @@ class CanvasView implements View {
   /** Changes what is shown, and draws it. Without a viewer (context lost) it waits for the next one. */
   #change(change: (viewer: Viewer) => void): void {
     if (!this.#viewer) return;
-    change(this.#viewer);
+    try {
+      change(this.#viewer);
+    } catch (cause) {
+      if (cause instanceof WebAssembly.RuntimeError) return this.#fail(cause);
+      throw new ViewError(`This cannot be shown: ${messageOf(cause)}.`);
+    }
     this.#redraw();
+  }
+
+  /** Gives up: the module has run out of memory or stands in an unknown state. */
+  #fail(cause: unknown): void {
+    this.#viewer = null;
+    this.#lost(`The picture can no longer be drawn: ${messageOf(cause)}. Reload the page to see it again.`);
   }
 
   #redraw(): void {
@@ -288,8 +307,7 @@ class CanvasView implements View {
     try {
       this.#viewer.draw();
     } catch (cause) {
-      this.#viewer = null;
-      this.#lost(`The picture can no longer be drawn: ${messageOf(cause)}. Reload the page to see it again.`);
+      this.#fail(cause);
       return false;
     }
     this.#frameMs = performance.now() - start;
@@ -304,10 +322,12 @@ class CanvasView implements View {
     });
   }
 
-  #resize(): void {
-    const { clientWidth, clientHeight } = this.#canvas;
-    if (clientWidth === 0 || clientHeight === 0) return;
-    this.#viewer?.resize(clientWidth, clientHeight, devicePixelRatio);
+  #resize(device?: ResizeObserverSize): void {
+    const { clientWidth: width, clientHeight: height } = this.#canvas;
+    if (width === 0 || height === 0) return;
+    const deviceWidth = device?.inlineSize ?? Math.round(width * devicePixelRatio);
+    const deviceHeight = device?.blockSize ?? Math.round(height * devicePixelRatio);
+    this.#viewer?.resize(width, height, deviceWidth, deviceHeight);
     // At once: a canvas of a new size is empty until it is drawn.
     this.#draw();
   }
@@ -346,6 +366,7 @@ class CanvasView implements View {
         if (dragged === null) act((viewer) => viewer.grab(x, y));
         return dragged === null ? 'camera' : 'handle';
       },
+      grabMiddle: () => act((viewer) => viewer.grabMiddle()),
       drag: (x, y) => {
         if (dragged === null) return;
         const index = dragged;

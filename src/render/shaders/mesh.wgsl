@@ -69,14 +69,15 @@ fn vertex(@location(0) node: u32, @builtin(vertex_index) index: u32) -> Varying 
     return out;
 }
 
-// Light from above left of the eye, a weaker one from the right, and from all around.
+// Light from above left of the eye, a weaker one from the right, and from all around. On average 0.8, at
+// most 1.
 fn light(normal: vec3<f32>, to_eye: vec3<f32>) -> f32 {
     let n = (frame.view_from_scene * vec4<f32>(normal, 0.0)).xyz;
     let key = max(dot(n, normalize(vec3<f32>(-0.45, 0.65, 0.75))), 0.0);
     let fill = max(dot(n, normalize(vec3<f32>(0.8, -0.1, 0.5))), 0.0);
     let head = max(dot(normal, to_eye), 0.0);
     let sky = 0.5 + 0.5 * n.y;
-    return 0.30 + 0.12 * sky + 0.42 * key + 0.12 * fill + 0.14 * head;
+    return min(0.28 + 0.14 * sky + 0.42 * key + 0.14 * fill + 0.14 * head, 1.0);
 }
 
 // How much of the pixel the edges cover. They fade where cells are too small to be told apart.
@@ -119,14 +120,20 @@ fn mark_regions(position: vec3<f32>, plain: vec3<f32>) -> vec3<f32> {
 }
 
 @fragment
-fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) vec4<f32> {
+fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let to_eye = towards_eye(in.position);
-    let facing = select(-1.0, 1.0, is_front);
-    var colour = in.colour;
-    if !is_front {
-        colour = select(frame.back.rgb, mix(colour, frame.back.rgb, 0.5), mesh.coloured != 0u);
+    // The face's own normal decides on its side: a bent quad shows one side, not two. Faces seen along
+    // their plane count as fronts, which keeps silhouettes clean.
+    let facing = dot(in.normal, to_eye);
+    let is_back = smoothstep(0.02, 0.1, -facing);
+    let normal = in.normal * select(-1.0, 1.0, facing >= 0.0);
+    var colour: vec3<f32>;
+    if mesh.coloured != 0u {
+        // Less shade and no tint: a colour must be found again in the legend.
+        colour = in.colour * mix(0.55 + 0.45 * light(normal, to_eye), 0.6, 0.6 * is_back);
+    } else {
+        colour = mix(in.colour, frame.back.rgb, is_back) * light(normal, to_eye);
     }
-    colour *= light(in.normal * facing, to_eye);
     let cover = edge_cover(in.sides, in.polygon) * f32(mesh.edges) * frame.edge.a;
     return vec4<f32>(mark_regions(in.position, mix(colour, frame.edge.rgb, cover)), 1.0);
 }
