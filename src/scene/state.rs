@@ -22,11 +22,14 @@ pub struct Style {
     pub edge_width: f32,
     /// What stands behind the model.
     pub background: Background,
+    /// CSS pixels at the left and at the right of the canvas that something covers: what is framed and the
+    /// axes stay clear of them.
+    pub covered: f64,
 }
 
 impl Default for Style {
     fn default() -> Self {
-        Self { edges: true, edge_width: 1.0, background: Background::default() }
+        Self { edges: true, edge_width: 1.0, background: Background::default(), covered: 0.0 }
     }
 }
 
@@ -255,8 +258,14 @@ impl Scene {
     /// The camera that shows everything from where it looks now.
     pub fn framed(&self) -> Camera {
         let mut camera = self.camera;
-        camera.frame(&self.bounds(), self.viewport);
+        camera.frame(&self.bounds(), self.clear());
         camera
+    }
+
+    /// The part of the canvas that nothing covers; at least a quarter of it.
+    fn clear(&self) -> Viewport {
+        let Viewport { width, height } = self.viewport;
+        Viewport { width: (width - 2.0 * self.style.covered).max(0.25 * width), height }
     }
 
     /// The camera that shows a face and what is around it, or `None` if there is no such face.
@@ -264,7 +273,7 @@ impl Scene {
         let surface = self.surface.as_ref().filter(|s| face < s.face_count())?;
         let bounds = surface.face_bounds(face);
         let mut camera = self.camera;
-        camera.frame(&bounds.grown(FACE_SURROUNDINGS * bounds.diagonal()), self.viewport);
+        camera.frame(&bounds.grown(FACE_SURROUNDINGS * bounds.diagonal()), self.clear());
         Some(camera)
     }
 
@@ -272,7 +281,7 @@ impl Scene {
     pub fn along(&self, axis: Axis) -> Camera {
         let mut camera = self.camera;
         camera.look_along(axis);
-        camera.frame(&self.bounds(), self.viewport);
+        camera.frame(&self.bounds(), self.clear());
         camera
     }
 
