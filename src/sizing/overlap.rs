@@ -49,13 +49,18 @@ impl Probe {
         Self { corners, bounds: Aabb::around(&corners), middle, radius: squared.sqrt() }
     }
 
+    /// A box that touches the bounds of every shape that this element can be found to meet with a reach up to `reach`.
+    pub(super) fn bounds_within(&self, reach: f64) -> Aabb {
+        self.bounds.grown(reach + self.least_extent())
+    }
+
     fn shrunk(&self) -> QuadHull {
         QuadHull::new(self.corners.map(|c| c + (self.middle - c) * TOUCH))
     }
 
-    /// The least extent that a shape has for this element.
+    /// The least extent that a shape has for this element: as far as shrinking moved a corner.
     fn least_extent(&self) -> f64 {
-        (TOUCH + COINCIDENT) * self.radius
+        TOUCH * self.radius
     }
 
     fn coincident(&self) -> f64 {
@@ -67,7 +72,7 @@ impl Probe {
 #[derive(Debug)]
 pub(super) struct Overlap {
     /// Around the shape.
-    bounds: Aabb,
+    pub(super) bounds: Aabb,
     shape: Prepared,
 }
 
@@ -135,8 +140,7 @@ impl Overlap {
 
     /// True if the element overlaps the shape by more than a touch, or is nearer to it than `reach`.
     pub(super) fn is_met(&self, element: &Probe, reach: f64) -> bool {
-        let grown = reach + element.least_extent();
-        self.bounds.grown(grown).touches(&element.bounds) && self.shape.is_met(element, reach)
+        self.bounds.touches(&element.bounds_within(reach)) && self.shape.is_met(element, reach)
     }
 }
 
