@@ -24,7 +24,9 @@ impl BoxIndex {
     pub fn new(boxes: impl IntoIterator<Item = Aabb>) -> Self {
         let entries = boxes.into_iter().enumerate().filter(|(_, b)| !b.is_empty()).map(|(i, b)| {
             let number = u32::try_from(i).expect("more than 2^32 boxes");
-            Entry::new(Rectangle::from_corners(b.min.to_array(), b.max.to_array()), number)
+            // The middle of an unbounded box would be no number, which the tree cannot sort.
+            let (min, max) = (b.min.max(Point::MIN), b.max.min(Point::MAX));
+            Entry::new(Rectangle::from_corners(min.to_array(), max.to_array()), number)
         });
         Self { tree: RTree::bulk_load(entries.collect()) }
     }
@@ -82,6 +84,14 @@ mod tests {
         }
         assert!(BoxIndex::new([]).nearest(Point::ZERO, |_| 0.0).is_none());
         assert_eq!(BoxIndex::new([Aabb::EMPTY]).touching(&boxes[0]).count(), 0);
+    }
+
+    #[test]
+    fn unbounded_boxes_are_found_everywhere() {
+        let all = Aabb { min: Point::NEG_INFINITY, max: Point::INFINITY };
+        let index = BoxIndex::new((0..100).map(|_| all));
+        assert_eq!(index.touching(&Aabb { min: Point::ONE, max: Point::ONE }).count(), 100);
+        assert_eq!(index.touching(&all).count(), 100);
     }
 
     #[test]
