@@ -139,6 +139,19 @@ proptest! {
     }
 
     #[test]
+    fn many_regions_are_as_many_fields(
+        corners in points::<4>(1.0), centers in points::<40>(4.0), level: bool, gradation in 1.2..2.0_f64,
+    ) {
+        let mesh = one_face(corners);
+        let target = if level { Target::Level(3) } else { Target::Size(0.4) };
+        let region = |&center: &Point| Region { shape: Shape::Sphere { center, radius: 0.3 }, target };
+        let regions: Vec<Region> = centers.iter().map(region).collect();
+        let element = element(corners);
+        let one_by_one = regions.chunks(1).any(|one| field(&mesh, one, gradation).wants(&element));
+        prop_assert_eq!(field(&mesh, &regions, gradation).wants(&element), one_by_one);
+    }
+
+    #[test]
     fn idle_means_that_nothing_is_wanted(corners in points::<4>(1.0), size in 0.05..1.0_f64, picks in prop::collection::vec(0_usize..4, 6)) {
         let mesh = one_face(corners);
         let field = SizeField::new(&mesh, SizeOptions { edge_length: Some(size), ..OPTIONS }).unwrap();
