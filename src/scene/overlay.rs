@@ -79,7 +79,7 @@ const KNOB: f32 = 6.5;
 const KNOB_HOVERED: f32 = 8.5;
 const KNOB_RING: f32 = 2.0;
 const PIVOT: f32 = 4.5;
-/// Where the triad stands, from the lower left corner, and the length of its arms.
+/// Where the triad stands, from the lower left corner that is not covered, and the length of its arms.
 const TRIAD: f64 = 46.0;
 const TRIAD_ARM: f64 = 27.0;
 const TRIAD_LETTER: f64 = 3.6;
@@ -183,7 +183,7 @@ const LETTERS: [&[[[f64; 2]; 2]]; 3] = [
 /// Three arms that show where x, y and z go; those that point away are drawn first.
 fn add_triad(out: &mut FrontBuffers, scene: &Scene, frame: &Frame, theme: &Theme) {
     let [right, up, forward] = scene.camera.axes();
-    let origin = DVec2::new(TRIAD, scene.viewport.height - TRIAD);
+    let origin = DVec2::new(scene.style.covered + TRIAD, scene.viewport.height - TRIAD);
     let place = |pixel: DVec2| {
         let at: Point = scene.camera.point_at_depth_of(scene.camera.target(), pixel, scene.viewport);
         frame.scene(at)

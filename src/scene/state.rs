@@ -22,11 +22,14 @@ pub struct Style {
     pub edge_width: f32,
     /// What stands behind the model.
     pub background: Background,
+    /// CSS pixels at the left and at the right of the canvas that something covers: what is framed and the
+    /// axes stay clear of them.
+    pub covered: f64,
 }
 
 impl Default for Style {
     fn default() -> Self {
-        Self { edges: true, edge_width: 1.0, background: Background::default() }
+        Self { edges: true, edge_width: 1.0, background: Background::default(), covered: 0.0 }
     }
 }
 
@@ -267,8 +270,14 @@ impl Scene {
         let surface = self.surface.iter().flat_map(|s| s.positions());
         let surface = surface.map(move |p| frame.world(p.as_dvec3()));
         let regions = self.placements.iter().flatten().flat_map(|p| corners(&p.bounds()));
-        camera.frame(surface.chain(regions), self.viewport);
+        camera.frame(surface.chain(regions), self.clear());
         camera
+    }
+
+    /// The part of the canvas that nothing covers; at least a quarter of it.
+    fn clear(&self) -> Viewport {
+        let Viewport { width, height } = self.viewport;
+        Viewport { width: (width - 2.0 * self.style.covered).max(0.25 * width), height }
     }
 
     /// The camera that shows a face and what is around it, or `None` if there is no such face.
@@ -277,7 +286,7 @@ impl Scene {
         let bounds = surface.face_bounds(face);
         let mut camera = self.camera;
         let around = bounds.grown(FACE_SURROUNDINGS * bounds.diagonal());
-        camera.frame(corners(&around), self.viewport);
+        camera.frame(corners(&around), self.clear());
         Some(camera)
     }
 

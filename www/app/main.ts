@@ -54,13 +54,28 @@ function reflect(page: Page): void {
   dataset['inspector'] = page.inspectorFolded.value ? 'folded' : 'open';
 }
 
+/** How far the columns reach over the view. On a phone they lie below it. */
+function measure(page: Page): void {
+  const view = part('view').getBoundingClientRect();
+  const reach = [...document.querySelectorAll('.steps, .inspector')].map((column) => {
+    const { left, right, width, top } = column.getBoundingClientRect();
+    if (width === 0 || top >= view.bottom) return 0;
+    return left - view.left < view.right - right ? right - view.left : view.right - left;
+  });
+  page.viewport.covered.value = Math.max(0, ...reach);
+}
+
 render(frame, part('app'));
 const page = new Page(createMesher());
 for (const [id, content] of Object.entries(PARTS)) {
   const host = part(id);
   effect(() => void render(content(page), host));
 }
-effect(() => reflect(page));
+effect(() => {
+  reflect(page);
+  measure(page);
+});
+new ResizeObserver(() => measure(page)).observe(part('app'));
 listen(page);
 void page.viewport.start(part('view'));
 page.openLink();

@@ -38,6 +38,8 @@ export type Style = {
   projection: 'perspective' | 'orthographic';
   /** What is up: z as in CAD, y as in modelling. A change looks from the front, right and above again. */
   up: 'y' | 'z';
+  /** CSS pixels at the left and at the right that panels cover: what is framed and the axes stay clear of them. */
+  covered: number;
 };
 
 export type Direction = '+x' | '-x' | '+y' | '-y' | '+z' | '-z' | 'iso';
@@ -83,7 +85,14 @@ export class ViewError extends Error {
 
 /** Milliseconds that the camera takes to fly somewhere. */
 const FLIGHT_MS = 280;
-const DEFAULT_STYLE: Style = { edges: true, edgeWidth: 1, background: 'light', projection: 'perspective', up: 'z' };
+const DEFAULT_STYLE: Style = {
+  edges: true,
+  edgeWidth: 1,
+  background: 'light',
+  projection: 'perspective',
+  up: 'z',
+  covered: 0,
+};
 const LOST =
   'The browser took the graphics away, often because memory ran out or the graphics driver restarted. ' +
   'Your meshes are safe; the picture comes back when the browser allows it.';

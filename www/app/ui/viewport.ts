@@ -13,6 +13,8 @@ export class Viewport {
   readonly edges = signal(true);
   readonly projection = signal<'perspective' | 'orthographic'>('perspective');
   readonly up = signal<'y' | 'z'>('z');
+  /** CSS pixels at either side of the canvas that the columns cover. */
+  readonly covered = signal(0);
   /** Why there is no picture, in plain words. */
   readonly trouble = signal<string | null>(null);
   readonly ready = signal(false);
@@ -149,7 +151,13 @@ export class Viewport {
 
   #drawStyle(view: View): () => void {
     return effect(() =>
-      view.setStyle({ edges: this.edges.value, projection: this.projection.value, background: this.#page.theme.scheme.value, up: this.up.value }),
+      view.setStyle({
+        edges: this.edges.value,
+        projection: this.projection.value,
+        background: this.#page.theme.scheme.value,
+        up: this.up.value,
+        covered: this.covered.value,
+      }),
     );
   }
 
