@@ -195,10 +195,12 @@ fn add_triad(out: &mut FrontBuffers, scene: &Scene, frame: &Frame, theme: &Theme
         let tip = origin + direction * TRIAD_ARM;
         let colour = theme.axes[axis];
         out.lines.push(Segment { from: place(origin), to: place(tip), width: 2.0, colour });
-        // A letter stands beyond the tip; where the arm points at the eye, above it.
+        // A letter stands beyond the tip; an arm that points at the eye or away has no room for one.
         let length = direction.length();
-        let beyond = if length > 0.15 { direction / length } else { DVec2::NEG_Y };
-        let middle = tip + beyond * 9.0;
+        if length < 0.2 {
+            continue;
+        }
+        let middle = tip + direction / length * 9.0;
         for stroke in LETTERS[axis] {
             let [from, to] = stroke.map(|p| place(middle + DVec2::from_array(p) * TRIAD_LETTER));
             out.lines.push(Segment { from, to, width: 1.6, colour });

@@ -286,7 +286,7 @@ impl Scene {
         let bounds = surface.face_bounds(face);
         let mut camera = self.camera;
         let around = bounds.grown(FACE_SURROUNDINGS * bounds.diagonal());
-        camera.frame(corners(&around), self.viewport);
+        camera.frame(corners(&around), self.clear());
         Some(camera)
     }
 

@@ -19,7 +19,8 @@ fn surface(name: &str) -> Surface {
 }
 
 fn scene(name: &str, axis: Axis, projection: Projection) -> Scene {
-    let mut scene = Scene { viewport: VIEW, ..Scene::default() };
+    let mut scene = Scene::default();
+    scene.viewport = VIEW;
     scene.set_surface(Some(surface(name)));
     scene.camera.projection = projection;
     scene.camera = scene.along(axis);
