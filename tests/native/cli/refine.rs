@@ -51,7 +51,7 @@ fn edge_length_bounds_every_edge() {
 #[test]
 fn the_report_tells_what_is_in_the_output() {
     let folder = folder_with("quads/bishop.obj");
-    let region = "sphere:1.747,-0.6,0.5,0.1:level=3";
+    let region = "sphere:0.96,-1.74,0.05,0.1:level=3";
     let args =
         ["refine", "bishop.obj", "-o", "out.obj", "--region", region, "--report", "r.json", "--threads", "2"];
     succeed(&folder, &args);
