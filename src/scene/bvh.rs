@@ -10,8 +10,8 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Ray, Surface, triangulate::triangulate};
-use crate::geometry::Point;
+use super::{Ray, Surface};
+use crate::geometry::{Point, triangulate};
 
 /// Children of a box. Wide and shallow: few boxes, and they are read in runs.
 const WIDTH: usize = 8;

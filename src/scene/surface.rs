@@ -10,12 +10,9 @@ use std::ops::Range;
 
 use glam::{DVec3, Vec3};
 
-use super::{
-    Frame,
-    triangulate::{area_vector, triangulate},
-};
+use super::Frame;
 use crate::{
-    geometry::{Aabb, Point},
+    geometry::{Aabb, Point, area_vector, triangulate},
     mesh::{PolygonMesh, QuadMesh},
 };
 
