@@ -362,7 +362,7 @@ mod tests {
     fn framed(projection: Projection, axis: Axis) -> Camera {
         let mut camera = Camera { projection, ..Camera::default() };
         camera.look_along(axis);
-        camera.frame(corners(&part()), VIEW);
+        camera.frame(corners(&part()), VIEW, DVec2::ONE);
         camera
     }
 
