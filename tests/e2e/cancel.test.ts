@@ -5,6 +5,7 @@ import { model, Workbench } from './workbench.js';
 
 /** Milliseconds within which the page must be free again. */
 const PROMPT = 200;
+const LEVELS = 'Refine everything this many times';
 
 describe.each([{ isolated: true }, { isolated: false }])('isolated: $isolated', ({ isolated }) => {
   let bench: Workbench;
@@ -18,8 +19,8 @@ describe.each([{ isolated: true }, { isolated: false }])('isolated: $isolated', 
   test('cancelling answers at once, says so, and keeps the earlier mesh', async () => {
     const quads = await bench.figure('quads');
     const before = await bench.picture();
-    await bench.radio('Levels').check();
-    await bench.fill('Refine everything', '6');
+    await bench.choice('Sized by', 'Levels').check();
+    await bench.fill(LEVELS, '6');
     await bench.page.locator('#mesh').click();
     await bench.page.locator('#cancel').waitFor();
     await expect.poll(() => bench.page.evaluate(() => window.hexmill.workbench.running.value?.stage), { timeout: 20_000 }).toBeTruthy();
@@ -38,7 +39,7 @@ describe.each([{ isolated: true }, { isolated: false }])('isolated: $isolated', 
   });
 
   test('the processor is free soon after, and the next mesh is made', async () => {
-    await bench.fill('Refine everything', '1');
+    await bench.fill(LEVELS, '1');
     const started = Date.now();
     await bench.mesh();
     expect(Date.now() - started).toBeLessThan(5_000);
@@ -46,10 +47,10 @@ describe.each([{ isolated: true }, { isolated: false }])('isolated: $isolated', 
   });
 
   test('the latest request wins', async () => {
-    await bench.fill('Refine everything', '5');
+    await bench.fill(LEVELS, '5');
     await bench.page.keyboard.press('Control+Enter');
     await bench.page.locator('#cancel').waitFor();
-    await bench.fill('Refine everything', '2');
+    await bench.fill(LEVELS, '2');
     await bench.page.keyboard.press('Control+Enter');
     await bench.page.locator('#mesh', { hasText: 'Meshed' }).waitFor({ timeout: 30_000 });
     expect(await bench.figure('quads')).toBe(16 * 1575);

@@ -172,8 +172,9 @@ export class Workbench {
     await mouse.up();
   }
 
-  radio(name: string): Locator {
-    return this.page.getByRole('radio', { name, exact: true });
+  /** One of the choices of a group, such as "Colour cells by". */
+  choice(group: string, name: string): Locator {
+    return this.page.getByRole('radiogroup', { name: group, exact: true }).getByRole('radio', { name, exact: true });
   }
 
   /** Waits for two frames and the end of a camera flight. */
