@@ -1,6 +1,6 @@
 //! Bytes in, bytes out. No paths, no printing.
 //!
-//! Every format is a module with a `read`, a `write` or both; [`read`] and [`write`] choose among them.
+//! Every format is a module with a `read`, a `write` or both; [`read()`] and [`write()`] choose among them.
 //! A reader refuses only what a [`Document`] cannot represent; what is doubtful in a mesh (repeated
 //! nodes, faces of no area, nodes that no face uses) is for [`crate::mesh`]'s checks to report.
 
