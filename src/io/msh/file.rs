@@ -74,12 +74,15 @@ impl<'a> MshFile<'a> {
                 let order = match one {
                     [1, 0, 0, 0] => ByteOrder::Little,
                     [0, 0, 0, 1] => ByteOrder::Big,
-                    _ => return Err(tokens.refuse(code::SYNTAX, "the byte order is not told by the number 1")),
+                    _ => {
+                        return Err(tokens.refuse(code::SYNTAX, "the byte order is not told by the number 1"));
+                    }
                 };
                 Encoding::Binary(order, size as usize)
             }
             _ => {
-                let message = format!("file type {kind} with data size {size} is not read; save the mesh as ASCII");
+                let message =
+                    format!("file type {kind} with data size {size} is not read; save the mesh as ASCII");
                 return Err(tokens.refuse(code::UNSUPPORTED_ENCODING, message));
             }
         };

@@ -27,10 +27,12 @@ impl Groups {
             let dimension = file.tokens.integer("the dimension of a group")?;
             let number = file.tokens.integer("the number of a group")?;
             let text = file.tokens.rest_of_line();
-            let name = text.strip_prefix(b"\"").and_then(|text| text.strip_suffix(b"\"")).ok_or_else(|| {
-                let message = format!("the name of a group is {}; it must stand in double quotes", excerpt(text));
-                file.tokens.refuse(code::SYNTAX, message)
-            })?;
+            let name =
+                text.strip_prefix(b"\"").and_then(|text| text.strip_suffix(b"\"")).ok_or_else(|| {
+                    let message =
+                        format!("the name of a group is {}; it must stand in double quotes", excerpt(text));
+                    file.tokens.refuse(code::SYNTAX, message)
+                })?;
             self.names.insert((dimension, number), String::from_utf8_lossy(name).into_owned());
         }
         Ok(())

@@ -108,7 +108,8 @@ fn write_names(file: &mut Text, groups: &PhysicalGroups, dimension: u8) {
 fn write_entities(file: &mut Text, view: &CellView<'_>, groups: &PhysicalGroups, dimension: u8) {
     let entities = groups.of_set.len().max(1);
     let bounds = Aabb::around(view.positions);
-    let corners = if view.positions.is_empty() { [[0.0; 3]; 2] } else { [bounds.min, bounds.max].map(Into::into) };
+    let corners =
+        if view.positions.is_empty() { [[0.0; 3]; 2] } else { [bounds.min, bounds.max].map(Into::into) };
     file.word("$Entities\n0 0 ").word(if dimension == 2 { "" } else { "0 " }).integer(entities);
     file.word(if dimension == 2 { " 0\n" } else { "\n" });
     for entity in 0..entities {

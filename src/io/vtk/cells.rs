@@ -26,7 +26,11 @@ pub(super) fn read_cells(file: &mut LegacyFile<'_>) -> Result<CellList, ReadErro
     let count = file.number("the number of cells")?;
     let size = file.number("the size of the list of cells")?;
     file.start_data();
-    if file.line_begins_with(b"OFFSETS") { read_offsets(file, count, size) } else { read_counted(file, count, size) }
+    if file.line_begins_with(b"OFFSETS") {
+        read_offsets(file, count, size)
+    } else {
+        read_counted(file, count, size)
+    }
 }
 
 /// Version 5: where each cell begins and the last ends, then the nodes.
@@ -57,7 +61,8 @@ fn read_counted(file: &mut LegacyFile<'_>, count: usize, size: usize) -> Result<
     while let Some((&length, after)) = rest.split_first() {
         let cell = usize::try_from(length).ok().and_then(|length| after.split_at_checked(length));
         let Some((nodes, after)) = cell else {
-            let message = format!("cell {} has {length} nodes, but the list ends before them", list.ends.len());
+            let message =
+                format!("cell {} has {length} nodes, but the list ends before them", list.ends.len());
             return Err(file.tokens.refuse(code::INCONSISTENT, message));
         };
         list.nodes.extend_from_slice(nodes);

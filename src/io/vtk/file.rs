@@ -17,7 +17,8 @@ impl<'a> LegacyFile<'a> {
         let mut tokens = Tokens::new(Format::Vtk, bytes, 1, None);
         let first = tokens.rest_of_line();
         if !first.starts_with(b"# vtk DataFile Version") {
-            let message = format!("the file begins with {}, not with '# vtk DataFile Version'", excerpt(first));
+            let message =
+                format!("the file begins with {}, not with '# vtk DataFile Version'", excerpt(first));
             return Err(refuse(Format::Vtk, 1, code::NOT_THIS_FORMAT, message));
         }
         tokens.rest_of_line();

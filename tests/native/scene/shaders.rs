@@ -27,8 +27,7 @@ fn glsl_of(name: &str, module: &naga::Module, info: &ModuleInfo, stage: ShaderSt
         version: glsl::Version::Embedded { version: 300, is_webgl: true },
         ..Default::default()
     };
-    let pipeline =
-        glsl::PipelineOptions { shader_stage: stage, entry_point: entry.into(), multiview: None };
+    let pipeline = glsl::PipelineOptions { shader_stage: stage, entry_point: entry.into(), multiview: None };
     let mut out = String::new();
     glsl::Writer::new(&mut out, &module, &info, &options, &pipeline, Default::default())
         .and_then(|mut writer| writer.write())
@@ -83,12 +82,13 @@ fn discs() {
 #[test]
 fn every_shader_is_checked() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/render/shaders");
-    let mut names: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|e| e.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut names: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
-    assert_eq!(names, ["background.wgsl", "discs.wgsl", "frame.wgsl", "lines.wgsl", "mesh.wgsl", "solids.wgsl"]);
+    assert_eq!(
+        names,
+        ["background.wgsl", "discs.wgsl", "frame.wgsl", "lines.wgsl", "mesh.wgsl", "solids.wgsl"]
+    );
 }
 
 #[test]
