@@ -3,11 +3,11 @@
 use proptest::prelude::*;
 
 use super::{
-    OPTIONS, Region, Shape, SizeField, SizeOptions, SizedElement, Target, children, element, field, one_face,
-    square,
+    OPTIONS, Region, Shape, SizeField, SizeOptions, SizedElement, Target, children, distance, element, field,
+    one_face, square,
 };
 use crate::geometry::Point;
-use crate::geometry::samples::{point, points, rotation};
+use crate::geometry::samples::{of_hull, point, points, rotation};
 
 fn ball(target: Target) -> Region {
     Region { shape: Shape::Sphere { center: Point::new(0.5, 0.5, 0.0), radius: 0.1 }, target }
@@ -92,24 +92,6 @@ fn a_polygon_of_many_sides_has_children_longer_than_its_edges() {
     assert!(!field.is_idle_from(1) && !field.is_idle_from(2) && field.is_idle_from(3));
 }
 
-/// The distance of element and shape, from samples of the element.
-fn sampled_distance(corners: [Point; 4], region: &Shape) -> f64 {
-    let gap = |p: Point| match region {
-        Shape::Box { min, max, rotation } => {
-            let local = rotation.inverse() * (p - min.midpoint(*max));
-            (local.abs() - (*max - *min) * 0.5).max(Point::ZERO).length()
-        }
-        Shape::Cylinder { from, to, radius } => {
-            let axis = (*to - *from).normalize();
-            let along = (p - from.midpoint(*to)).dot(axis);
-            let across = (p - from.midpoint(*to) - axis * along).length();
-            (along.abs() - from.distance(*to) * 0.5).max(0.0).hypot((across - radius).max(0.0))
-        }
-        other => unreachable!("{other:?}"),
-    };
-    crate::geometry::samples::of_hull(corners, 20).map(gap).fold(f64::INFINITY, f64::min)
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
 
@@ -126,7 +108,8 @@ proptest! {
             Shape::Box { min: middle - half, max: middle + half, rotation: turn }
         };
         let element = element(corners);
-        let distance = sampled_distance(corners, &shape);
+        let gaps = of_hull(corners, 20).map(|p| distance(&shape, p));
+        let distance = gaps.fold(f64::INFINITY, f64::min);
         let field = field(&one_face(corners), &[Region { shape, target: Target::Size(size) }], gradation);
         let wanted = field.wants(&element);
         let target_at = |d: f64| size + (gradation - 1.0) * d;

@@ -72,10 +72,14 @@ fn shapes() -> [(Shape, Distance); 4] {
         (along.abs() - from.distance(to) * 0.5).max(0.0).hypot((across - 0.6).max(0.0))
     };
     let cloud = points.clone();
-    let points_gap = move |p: Point| cloud.iter().map(|q| (p.distance(*q) - 0.3).max(0.0)).fold(f64::MAX, f64::min);
+    let points_gap =
+        move |p: Point| cloud.iter().map(|q| (p.distance(*q) - 0.3).max(0.0)).fold(f64::MAX, f64::min);
     [
         (Shape::Box { min: center - half, max: center + half, rotation }, Box::new(box_gap)),
-        (Shape::Sphere { center, radius: 0.9 }, Box::new(move |p: Point| (p.distance(center) - 0.9).max(0.0))),
+        (
+            Shape::Sphere { center, radius: 0.9 },
+            Box::new(move |p: Point| (p.distance(center) - 0.9).max(0.0)),
+        ),
         (Shape::Cylinder { from, to, radius: 0.6 }, Box::new(cylinder_gap)),
         (Shape::Points { points, radius: 0.3 }, Box::new(points_gap)),
     ]
@@ -122,7 +126,8 @@ proptest! {
 fn levels_count_from_the_input() {
     for (shape, distance) in shapes() {
         let regions = vec![Region { shape, target: Target::Level(4) }];
-        let refined = refine_quads(&sheet(), &QuadOptions { regions, ..QuadOptions::default() }, &Silent).unwrap();
+        let refined =
+            refine_quads(&sheet(), &QuadOptions { regions, ..QuadOptions::default() }, &Silent).unwrap();
         assert_eq!(refined.level.iter().max(), Some(&4));
         for q in 0..refined.mesh.quads.len() {
             let inside = distance(middle(corners(&refined.mesh, q))) == 0.0;
