@@ -5,6 +5,8 @@ import { model, Workbench } from './workbench.js';
 
 /** Milliseconds within which the page must be free again. */
 const PROMPT = 200;
+/** Milliseconds within which a small mesh is there, new workers included, on a busy machine. */
+const SOON = 5_000;
 const LEVELS = 'Refine everything this many times';
 
 describe.each([{ isolated: true }, { isolated: false }])('isolated: $isolated', ({ isolated }) => {
@@ -40,9 +42,9 @@ describe.each([{ isolated: true }, { isolated: false }])('isolated: $isolated', 
 
   test('the processor is free soon after, and the next mesh is made', async () => {
     await bench.fill(LEVELS, '1');
-    const started = Date.now();
     await bench.mesh();
-    expect(Date.now() - started).toBeLessThan(5_000);
+    const took = await bench.page.evaluate(() => window.hexmill.workbench.result.value?.milliseconds);
+    expect(took).toBeLessThan(SOON);
     expect(await bench.figure('quads')).toBe(4 * 1575);
   });
 
