@@ -1,4 +1,4 @@
-//! **hexmill**: conforming quadrilateral and hexahedral meshes.
+//! **hexmill**: conforming quadrilateral meshes of any surface.
 //!
 //! The crate is one core for three front ends: a page in the browser, an npm package and a command
 //! line. It does no I/O, reads no clock and logs nothing; progress and cancellation come in through

@@ -9,7 +9,8 @@ pub trait Monitor: Sync {
     /// `fraction` of `stage` is done, from 0 to 1, never falling within a stage.
     fn progress(&self, stage: Stage, fraction: f64);
 
-    /// True once the caller wants the work to stop. Asked at least every few milliseconds of work.
+    /// True once the caller wants the work to stop. Asked between the steps of the work, and several times a second
+    /// within the steps that grow with the result.
     fn cancelled(&self) -> bool;
 
     /// Reports progress, and stops the caller with `?` if the work was cancelled.

@@ -16,29 +16,37 @@
 
 use rayon::prelude::*;
 
-use super::RefinedQuads;
+use super::options::{RefineError, RefinedQuads};
 use crate::forest::{Level, QuadForest, UNDIVIDED, center, grow, midpoint};
 use crate::geometry::Point;
 use crate::mesh::{FaceId, NodeId, QuadMesh, Tags};
 use crate::template::quad::{Cells, SPLIT, TEMPLATE_1, place};
-use crate::{Cancelled, Monitor, Stage};
+use crate::{Monitor, Stage};
 
 /// The stage that this file reports.
 const TEMPLATES: Stage = Stage("templates");
 
 /// Applies the templates to a strongly balanced forest.
+///
+/// # Errors
+/// If the monitor stops it, or the templates would bring the mesh over `limit` quads.
 pub(super) fn conform(
     mut forest: QuadForest,
     tags: &Tags,
+    limit: u64,
     monitor: &dyn Monitor,
-) -> Result<RefinedQuads, Cancelled> {
+) -> Result<RefinedQuads, RefineError> {
     forest.complete_edges();
     let QuadForest { mut positions, levels, base_level } = forest;
     let active = active_nodes(&levels, positions.len());
     let transitions: Vec<Transition> =
         levels.par_iter().map(|level| Transition::of(level, &active)).collect();
-    let mut out = Leaves::with_capacity(transitions.iter().map(Transition::quad_count).sum());
-    let depth = levels.len();
+    let (depth, quads) = (levels.len(), transitions.iter().map(Transition::quad_count).sum());
+    if quads as u64 > limit {
+        let level = base_level + (depth - 1) as u8;
+        return Err(RefineError::TooManyQuads { level, quads: quads as u64, limit });
+    }
+    let mut out = Leaves::with_capacity(quads);
     for (k, (mut level, transition)) in levels.into_iter().zip(&transitions).enumerate() {
         monitor.checkpoint(TEMPLATES, k as f64 / depth as f64)?;
         divide_active_edges(&mut level, &active, &mut positions);

@@ -1,6 +1,8 @@
 //! Which elements the options want finer: what refinement and its estimate have in common.
 
-use super::options::{QuadOptions, RefineError, validate};
+use rayon::prelude::*;
+
+use super::options::{QuadOptions, RefineError, validate, validate_digits};
 use crate::geometry::Point;
 use crate::mesh::{FaceId, PolygonMesh};
 use crate::sizing::{SizeField, SizeOptions, SizedElement};
@@ -17,7 +19,11 @@ impl Demand {
         validate(input, options)?;
         let &QuadOptions { edge_length, curvature, gradation, ref regions, .. } = options;
         let field = SizeField::new(input, SizeOptions { edge_length, curvature, gradation, regions })?;
-        Ok(Self { everywhere: options.levels.unwrap_or(0), field })
+        let demand = Self { everywhere: options.levels.unwrap_or(0), field };
+        let edges = (0..input.face_count()).into_par_iter().map(|f| outline(&face_points(input, f)).1);
+        let longest = edges.reduce(|| 0.0, f64::max);
+        validate_digits(input, longest, demand.deepest(options.max_levels))?;
+        Ok(demand)
     }
 
     /// True if every element of `level` is wanted finer.

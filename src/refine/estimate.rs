@@ -1,10 +1,12 @@
 //! How large a mesh will be, told before the work.
 //!
-//! Small results are simply made and counted. For large ones the trees are followed on a sample: of the elements
-//! of each level no more than [`SAMPLE`] are kept, evenly spaced in their order, and each stands for as many as
-//! were passed over. Topology is never built, so strong balance and templates are left out of the sample; they
-//! add rings of elements around regions, little beside the regions' insides.
+//! Small results are simply made and counted. For large ones every element of the base level is asked whether it is
+//! wanted finer; from there on the trees are followed on a sample: of the elements of each level about [`SAMPLE`]
+//! are kept, chosen by a hash of their place so that no pattern of the mesh falls in step with the choice, and each
+//! stands for as many as were passed over. Topology is never built, so strong balance and templates are left out;
+//! they add rings of elements around regions, little beside the regions' insides.
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::demand::{Demand, corner_quads, face_points, outline};
@@ -17,7 +19,7 @@ use crate::mesh::{FaceId, PolygonMesh};
 /// Results of no more quads than this are made and counted.
 const COUNTED: u64 = 60_000;
 
-/// The most elements of a level that are looked at: enough for a few percent, and a few milliseconds.
+/// About how many elements of a level are looked at: their share that is wanted finer is then known to a percent.
 const SAMPLE: usize = 20_000;
 
 /// Peak memory of refinement over the size of the result, measured with `cargo bench --bench refine`: level
@@ -40,8 +42,7 @@ pub struct Estimate {
     pub exact: bool,
 }
 
-/// Tells how large the result of [`refine_quads`](super::refine_quads) will be, in a few milliseconds beyond one look at each face.
-/// The limit of quads in `options` is not held against the estimate.
+/// Tells how large the result of [`refine_quads`](super::refine_quads) will be. The limit of quads in `options` is not held against the estimate.
 ///
 /// # Errors
 /// If the input is no valid surface or an option is out of range.
@@ -85,36 +86,70 @@ pub(super) fn refuse_absurd(
 }
 
 /// An element of the sample.
+#[derive(Clone, Copy)]
 struct Sampled {
     corners: [Point; 4],
     root: FaceId,
 }
 
-/// Follows the trees on a sample of each level.
+/// Follows the trees from the base level down.
 fn follow_sample(input: &PolygonMesh, demand: &Demand, options: &QuadOptions) -> Estimate {
     let mut level = if options.keep_coarse { 0 } else { 1 };
+    let wants = |s: &Sampled| {
+        level < options.max_levels && demand.wants(s.corners, outline(&s.corners).1, level, s.root)
+    };
     let base_count = if options.keep_coarse { input.face_count() } else { input.corners.len() };
-    let faces = (0..input.face_count()).step_by(input.face_count().div_ceil(SAMPLE));
-    let mut sample: Vec<Sampled> = faces.flat_map(|f| base(input, f, level)).collect();
-    let mut weight = base_count as f64 / sample.len() as f64;
-    let mut quads = 0.0;
-    loop {
-        let count = sample.len();
-        let kept: Vec<Sampled> = sample.into_iter().step_by(count.div_ceil(SAMPLE)).collect();
-        weight *= count as f64 / kept.len() as f64;
-        let (wanted, left): (Vec<_>, Vec<_>) = kept.into_iter().partition(|s| {
-            level < options.max_levels && demand.wants(s.corners, outline(&s.corners).1, level, s.root)
-        });
-        quads += weight * left.len() as f64;
-        if wanted.is_empty() {
-            break;
-        }
-        sample = wanted.iter().flat_map(|s| split(&s.corners, s.root)).collect();
+    let wanted: Vec<(u32, u8)> = (0..input.face_count() as u32)
+        .into_par_iter()
+        .flat_map_iter(|f| {
+            let elements = base(input, f as usize, level).into_iter().enumerate();
+            elements.filter(|(_, s)| wants(s)).map(move |(k, _)| (f, k as u8)).collect::<Vec<_>>()
+        })
+        .collect();
+    let mut quads = (base_count - wanted.len()) as f64;
+    let kept = chosen(wanted.len(), level);
+    let mut weight = wanted.len() as f64 / kept.len().max(1) as f64;
+    let mut parents: Vec<Sampled> = kept
+        .into_iter()
+        .filter_map(|k| {
+            let (face, corner) = wanted[k];
+            base(input, face as usize, level).into_iter().nth(corner.into())
+        })
+        .collect();
+    while !parents.is_empty() {
         level += 1;
+        let all: Vec<Sampled> = parents.iter().flat_map(|s| split(&s.corners, s.root)).collect();
+        let kept = chosen(all.len(), level);
+        weight *= all.len() as f64 / kept.len() as f64;
+        let wants = |s: &Sampled| {
+            level < options.max_levels && demand.wants(s.corners, outline(&s.corners).1, level, s.root)
+        };
+        let kept_count = kept.len();
+        parents = kept.into_iter().map(|k| all[k]).filter(wants).collect();
+        quads += weight * (kept_count - parents.len()) as f64;
     }
     let quads = quads as u64;
     let (nodes, bytes) = (quads.saturating_add(quads / 64), quads.saturating_mul(BYTES_PER_QUAD));
     Estimate { quads, nodes, bytes, levels: level, exact: false }
+}
+
+/// About [`SAMPLE`] of the numbers below `count`, or all of them.
+fn chosen(count: usize, level: u8) -> Vec<usize> {
+    if count <= SAMPLE {
+        return (0..count).collect();
+    }
+    let threshold = (u64::MAX as f64 * (SAMPLE as f64 / count as f64)) as u64;
+    let kept: Vec<usize> = (0..count).filter(|&k| scrambled(k as u64, level) <= threshold).collect();
+    if kept.is_empty() { vec![0] } else { kept }
+}
+
+/// A number that tells nothing of `k` (the finaliser of MurmurHash3).
+fn scrambled(k: u64, level: u8) -> u64 {
+    let mut h = k + (u64::from(level) << 56);
+    for factor in [0xff51_afd7_ed55_8ccd, 0xc4ce_b9fe_1a85_ec53] {
+        h = (h ^ (h >> 33)).wrapping_mul(factor);
+    }
+    h ^ (h >> 33)
 }
 
 /// The elements of the base level that are part of face `f`.

@@ -20,7 +20,8 @@ pub struct QuadOptions {
     pub regions: Vec<Region>,
     /// Turn of the surface's normal that one edge may span, in degrees.
     pub curvature: Option<f64>,
-    /// How much larger an element may be than its neighbour, 1 < gradation <= 2; strong balance gives 2.
+    /// How much larger an element may be than its neighbour around a region with a target size,
+    /// 1 < gradation <= 2. Strong balance gives 2, there and everywhere else.
     pub gradation: f64,
     /// Leave untouched quads at level 0 (beyond the paper; all-quad, two-colourable input only).
     pub keep_coarse: bool,
@@ -95,6 +96,30 @@ pub enum RefineError {
     /// A size, a region or the curvature cannot be met.
     #[error(transparent)]
     Sizing(#[from] SizingError),
+    /// The coordinates are too large or too close together for lengths, areas and volumes to be numbers.
+    #[error(
+        "the surface measures {size:e} and reaches {reach:e} from the origin; sizes from 1e-60 to 1e60 can be \
+         refined: scale the surface, or move it towards the origin"
+    )]
+    Extent {
+        /// The diagonal of the box around the nodes.
+        size: f64,
+        /// The greatest coordinate, without its sign.
+        reach: f64,
+    },
+    /// The coordinates have too few digits for so many levels.
+    #[error(
+        "{level} levels would divide edges {longest:e} long beyond the digits of coordinates that reach \
+         {reach:e}: ask for fewer levels or larger elements, or move the surface towards the origin"
+    )]
+    TooFewDigits {
+        /// The level asked for.
+        level: u8,
+        /// The longest edge of the input.
+        longest: f64,
+        /// The greatest coordinate, without its sign.
+        reach: f64,
+    },
     /// The mesh would have more quads than allowed.
     #[error(
         "level {level} would bring the mesh to about {quads} quads, more than the limit of {limit}; \
@@ -121,6 +146,8 @@ impl RefineError {
             Self::Base(BaseError::OddCycle(_)) => "keep-coarse-needs-two-colours",
             Self::Sizing(error) => error.code(),
             Self::Option { .. } => "option-out-of-range",
+            Self::Extent { .. } => "surface-extent",
+            Self::TooFewDigits { .. } => "too-few-digits",
             Self::TooManyQuads { .. } => "too-many-quads",
         }
     }
@@ -135,6 +162,10 @@ pub(super) fn validate(input: &PolygonMesh, options: &QuadOptions) -> Result<(),
     if !defects.is_empty() {
         return Err(RefineError::InvalidInput(summary(&defects).iter().map(ToString::to_string).collect()));
     }
+    let (size, reach) = (input.bounds().diagonal(), reach(input));
+    if reach > LARGEST || size > LARGEST || (size > 0.0 && size < 1.0 / LARGEST) {
+        return Err(RefineError::Extent { size, reach });
+    }
     let out_of_range = |option, value: String, wanted| Err(RefineError::Option { option, value, wanted });
     if options.max_levels > QuadOptions::DEEPEST_LEVEL {
         return out_of_range("maxLevels", options.max_levels.to_string(), "give at most 30");
@@ -144,6 +175,27 @@ pub(super) fn validate(input: &PolygonMesh, options: &QuadOptions) -> Result<(),
     }
     if options.max_quads > QuadOptions::MOST_QUADS {
         return out_of_range("maxQuads", options.max_quads.to_string(), "give at most 2^30");
+    }
+    Ok(())
+}
+
+/// The largest coordinate, and the inverse of the smallest extent: a product of four lengths stays a number.
+const LARGEST: f64 = 1e60;
+
+/// How many of the least steps between coordinates an edge must keep.
+const LEAST_STEPS: f64 = 64.0;
+
+/// The greatest coordinate of a surface, without its sign.
+fn reach(input: &PolygonMesh) -> f64 {
+    let bounds = input.bounds();
+    if bounds.is_empty() { 0.0 } else { bounds.min.abs().max_element().max(bounds.max.abs().max_element()) }
+}
+
+/// Refuses levels that would divide the longest edges until their nodes fall together.
+pub(super) fn validate_digits(input: &PolygonMesh, longest: f64, level: u8) -> Result<(), RefineError> {
+    let reach = reach(input);
+    if longest * 0.5_f64.powi(level.into()) < LEAST_STEPS * f64::EPSILON * reach && level > 0 {
+        return Err(RefineError::TooFewDigits { level, longest, reach });
     }
     Ok(())
 }

@@ -137,7 +137,7 @@ impl<'a> QuadRefinement<'a> {
     /// Balances the forest, applies the templates, and returns the mesh.
     ///
     /// # Errors
-    /// If the monitor stops it, or balance would make the mesh too large.
+    /// If the monitor stops it, or balance and templates make the mesh too large.
     pub fn finish(self, monitor: &dyn Monitor) -> Result<RefinedQuads, RefineError> {
         let mut forest = match self.forest {
             Some(forest) => forest,
@@ -146,9 +146,7 @@ impl<'a> QuadRefinement<'a> {
         monitor.checkpoint(BALANCE, 0.0)?;
         forest.balance(monitor)?;
         monitor.checkpoint(BALANCE, 1.0)?;
-        let deepest = forest.base_level + (forest.levels.len() - 1) as u8;
-        check_size(self.options, deepest, forest.leaf_count() as u64)?;
-        let refined = conform(forest, &self.input.tags, monitor)?;
+        let refined = conform(forest, &self.input.tags, self.options.max_quads, monitor)?;
         Ok(RefinedQuads { capped: self.capped, ..refined })
     }
 

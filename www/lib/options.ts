@@ -36,7 +36,7 @@ export interface QuadOptions {
   regions?: readonly Region[] | undefined;
   /** Turn of the surface's normal that one edge may span, in degrees. */
   curvature?: number | undefined;
-  /** How much larger an element may be than its neighbour, more than 1 and at most 2 (the default). */
+  /** How much larger an element may be than its neighbour around a region with a size: more than 1, at most 2 (the default). */
   gradation?: number | undefined;
   /** Leave untouched quads as they are; for all-quad input whose nodes can be two-coloured. */
   keepCoarse?: boolean | undefined;

@@ -113,7 +113,7 @@ pub(crate) struct RefineArgs {
     #[arg(long, value_name = "DEG", value_parser = positive)]
     pub(crate) curvature: Option<f64>,
 
-    /// How much larger an element may be than its neighbour, more than 1 and at most 2
+    /// How much larger an element may be than its neighbour around a region with a size (1 < G <= 2)
     #[arg(long, value_name = "G", value_parser = positive)]
     pub(crate) gradation: Option<f64>,
 

@@ -135,6 +135,38 @@ fn refusals_say_what_and_what_to_do() {
     assert!(text.contains("384") && text.contains("100"), "{text}");
 }
 
+#[test]
+fn the_limit_holds_for_the_result() {
+    let region = ball([0.5, 0.5, 0.0], 0.3, 4);
+    let quads = refine_quads(&grid(3, 3), &region, &Silent).unwrap().mesh.quads.len() as u64;
+    let limited = |max_quads| QuadOptions { max_quads, ..region.clone() };
+    assert!(refine_quads(&grid(3, 3), &limited(quads), &Silent).is_ok());
+    let (code, text) = refuse(&grid(3, 3), limited(quads - 1));
+    assert_eq!(code, "too-many-quads");
+    assert!(text.contains(&format!("about {quads} quads")), "{text}");
+}
+
+#[test]
+fn size_and_place_of_the_model_do_not_matter_within_the_numbers() {
+    let refined = |scale: f64, shift: f64| {
+        let mut input = grid(3, 3);
+        for p in &mut input.positions {
+            *p = *p * scale + Point::splat(shift);
+        }
+        let shape = Shape::Sphere { center: Point::new(1.0, 1.0, 0.0) * scale + shift, radius: 0.7 * scale };
+        let regions = vec![Region { shape, target: Target::Size(0.1 * scale) }];
+        refine_quads(&input, &QuadOptions { regions, ..QuadOptions::default() }, &Silent)
+    };
+    let expected = refined(1.0, 0.0).unwrap().mesh.quads;
+    for scale in [2.0_f64.powi(-190), 2.0_f64.powi(-20), 2.0_f64.powi(20), 2.0_f64.powi(190)] {
+        assert_eq!(refined(scale, 0.0).unwrap().mesh.quads, expected, "scale {scale}");
+    }
+    assert_eq!(refined(1.0, 1048576.0).unwrap().mesh.quads, expected);
+    assert_eq!(refined(1e-70, 0.0).unwrap_err().code(), "surface-extent");
+    assert_eq!(refined(1e200, 0.0).unwrap_err().code(), "surface-extent");
+    assert_eq!(refined(1.0, 1e15).unwrap_err().code(), "too-few-digits");
+}
+
 /// Stops at the given call of `cancelled`.
 struct StopAt(std::sync::atomic::AtomicI64);
 
@@ -171,5 +203,4 @@ fn the_same_bytes_for_any_number_of_threads() {
     for threads in [2, 3, 4] {
         assert_eq!(run(threads), one);
     }
-    assert_eq!(one.mesh.quads[0].map(NodeId::index).len(), 4);
 }
