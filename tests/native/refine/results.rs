@@ -2,7 +2,7 @@
 
 use hexmill::geometry::Point;
 use hexmill::mesh::check::check_quads;
-use hexmill::mesh::{NodeId, TagSet, Tags};
+use hexmill::mesh::{TagSet, Tags};
 use hexmill::refine::{QuadOptions, RefineError, RefinedQuads, refine_quads};
 use hexmill::sizing::{Region, Shape, Target};
 use hexmill::{Cancelled, Monitor, Silent, Stage};
