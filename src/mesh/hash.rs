@@ -42,23 +42,24 @@ pub fn mesh_hash<const N: usize>(positions: &[Point], cells: &[[NodeId; N]]) -> 
     for count in [positions.len(), cells.len(), N] {
         hash.update(&(count as u64).to_le_bytes());
     }
-    let mut block = Vec::with_capacity(24 * BLOCK);
-    for nodes in positions.chunks(BLOCK) {
-        block.clear();
+    let mut coordinates = Vec::with_capacity(BLOCK);
+    for block in bytemuck::cast_slice::<Point, f64>(positions).chunks(BLOCK) {
+        coordinates.clear();
         // Adding zero turns -0.0 into 0.0 and leaves every other number.
-        block.extend(nodes.iter().flat_map(|p| (*p + Point::ZERO).to_array()).flat_map(f64::to_le_bytes));
-        hash.update(&block);
+        coordinates.extend(block.iter().map(|x| (x + 0.0).to_bits().to_le()));
+        hash.update(bytemuck::cast_slice(&coordinates));
     }
-    for ids in cells.as_flattened().chunks(BLOCK) {
-        block.clear();
-        block.extend(ids.iter().flat_map(|n| n.0.to_le_bytes()));
-        hash.update(&block);
+    let mut ids = Vec::with_capacity(BLOCK);
+    for block in cells.as_flattened().chunks(BLOCK) {
+        ids.clear();
+        ids.extend(block.iter().map(|n| n.0.to_le()));
+        hash.update(bytemuck::cast_slice(&ids));
     }
     MeshHash(hash.digest128())
 }
 
-/// Nodes or ids whose bytes are gathered before they are hashed: a block stays in the nearest cache.
-const BLOCK: usize = 512;
+/// Numbers that are brought into shape before they are hashed: a block stays in the nearest cache.
+const BLOCK: usize = 1024;
 
 #[cfg(test)]
 mod tests {

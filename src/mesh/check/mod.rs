@@ -68,14 +68,21 @@ fn check(mesh: &impl Faces) -> Vec<Defect> {
     defects.extend(not_finite(mesh.positions()));
     let all_finite = defects.is_empty();
     defects.extend(per_face(mesh, |f| face_shape(mesh, f)));
-    defects.extend(same_nodes::same_nodes(mesh));
-    let edges = Edges::of(mesh);
-    let uses = EdgeUses::of(&edges);
-    defects.extend(edge_ids(&edges).filter_map(|e| edge_defect(mesh, &edges, &uses, e)));
+    let (same, (edges, uses)) = rayon::join(
+        || same_nodes::same_nodes(mesh),
+        || {
+            let edges = Edges::of(mesh);
+            let uses = EdgeUses::of(&edges);
+            (edges, uses)
+        },
+    );
+    let (at_edges, pinched) =
+        rayon::join(|| edge_defects(mesh, &edges, &uses), || non_manifold_nodes(mesh, &edges));
     let used = used_nodes(mesh);
     let unused = used.iter().enumerate().filter(|&(_, &u)| !u);
+    defects.extend(same);
+    defects.extend(at_edges);
     defects.extend(unused.map(|(n, _)| Defect::UnusedNode { node: NodeId::new(n) }));
-    let pinched = non_manifold_nodes(mesh, &uses, &edges);
     defects.extend(pinched.into_iter().map(|(node, n)| Defect::NonManifoldNode { node, fans: n as u32 }));
     if all_finite {
         let open = edge_ids(&edges).filter(|&e| uses.count(e) == 1).map(|e| edges.ends[e.index()]);
@@ -148,6 +155,12 @@ fn has_no_area(positions: &[Point], nodes: &[NodeId]) -> bool {
     // Scaled to size 1, so that neither tiny nor huge models leave the range of f64.
     let area: Point = (1..nodes.len() - 1).map(|i| (at(i) / size).cross(at(i + 1) / size)).sum();
     area.length() < NO_AREA
+}
+
+/// Step 5.
+fn edge_defects(mesh: &impl Faces, edges: &Edges, uses: &EdgeUses) -> Vec<Defect> {
+    let ids = (0..edges.len()).into_par_iter().with_min_len(CHUNK).map(EdgeId::new);
+    ids.filter_map(|e| edge_defect(mesh, edges, uses, e)).collect()
 }
 
 /// Step 5 at one edge.

@@ -81,27 +81,31 @@ impl Measures {
         let normal = twice_area.normalize_or_zero();
         let sides = [0, 1, 2, 3].map(|k| p[(k + 1) % 4] - p[k]);
         let lengths = sides.map(Point::length);
-        let unit = sides.map(Point::normalize_or_zero);
+        let unit: [Point; 4] =
+            std::array::from_fn(|k| if lengths[k] > 0.0 { sides[k] / lengths[k] } else { sides[k] });
         let corners = [0, 1, 2, 3].map(|k| {
             let (u, v) = (unit[k], -unit[(k + 3) % 4]);
             Turn { sine: normal.dot(u.cross(v)), cosine: u.dot(v) }
         });
-        let by_turn = |a: &Turn, b: &Turn| a.rank().total_cmp(&b.rank());
-        let [first, .., last] = sorted(corners, by_turn);
+        let ranks = corners.map(Turn::rank);
+        let (mut least, mut most) = (0, 0);
+        for k in 1..4 {
+            if ranks[k] < ranks[least] {
+                least = k;
+            }
+            if ranks[k] > ranks[most] {
+                most = k;
+            }
+        }
         let longest = lengths.iter().copied().fold(0.0, f64::max);
         let perimeter: f64 = lengths.iter().sum();
         Self {
             scaled_jacobian: corners.iter().map(|c| c.sine).fold(f64::INFINITY, f64::min),
-            min_angle: first.degrees(),
-            max_angle: last.degrees(),
+            min_angle: corners[least].degrees(),
+            max_angle: corners[most].degrees(),
             aspect: longest * perimeter / (2.0 * twice_area.length()),
         }
     }
-}
-
-fn sorted<T, const N: usize>(mut items: [T; N], by: impl FnMut(&T, &T) -> std::cmp::Ordering) -> [T; N] {
-    items.sort_by(by);
-    items
 }
 
 /// The angle at a corner by its sine and cosine.
@@ -112,15 +116,21 @@ struct Turn {
 }
 
 impl Turn {
-    /// Grows with the angle from 0 to 4 around the circle: orders angles without an arc tangent.
+    /// Grows with the angle from 0 to 4 around the circle: orders angles without an arc tangent. 0 beside an edge
+    /// without length, as the angle.
     fn rank(self) -> f64 {
-        let share = self.cosine / (self.cosine.abs() + self.sine.abs());
+        let size = self.cosine.abs() + self.sine.abs();
+        if size == 0.0 {
+            return 0.0;
+        }
+        let share = self.cosine / size;
         if self.sine >= 0.0 { 1.0 - share } else { 3.0 + share }
     }
 
     /// From 0 to 360. Through libm, whose last bit is the same on every platform.
     fn degrees(self) -> f64 {
-        let degrees = libm::atan2(self.sine, self.cosine).to_degrees();
+        // Adding zero turns -0.0 into 0.0, whose arc tangent is 0 and not 180.
+        let degrees = libm::atan2(self.sine + 0.0, self.cosine + 0.0).to_degrees();
         if degrees < 0.0 { degrees + 360.0 } else { degrees }
     }
 }

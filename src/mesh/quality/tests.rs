@@ -64,6 +64,17 @@ fn a_quad_without_area_has_jacobian_zero_and_the_largest_aspect() {
 }
 
 #[test]
+fn a_quad_that_is_a_triangle_keeps_its_other_angles() {
+    let corners = [[0., 0., 0.], [0., 0., 0.], [1., 0., 0.], [0., 1., 0.]];
+    for k in 0..4 {
+        let m = one_quad(std::array::from_fn(|i| corners[(i + k) % 4]));
+        near(m.min_angle, 0.0);
+        near(m.max_angle, 45.0);
+        near(m.scaled_jacobian, 0.0);
+    }
+}
+
+#[test]
 fn ranks_grow_with_angles() {
     let ranks =
         (0..360).map(|d| f64::from(d).to_radians()).map(|r| Turn { sine: r.sin(), cosine: r.cos() }.rank());

@@ -68,7 +68,7 @@ pub fn surface_report(mesh: &impl Faces, edges: &Edges) -> SurfaceReport {
         boundary_edges: boundary.len(),
         boundary_loops: boundary_loops(mesh.node_count(), edges, &boundary),
         non_manifold_edges: edge_ids(edges).filter(|&e| uses.count(e) > 2).count(),
-        non_manifold_nodes: non_manifold_nodes(mesh, &uses, edges).len(),
+        non_manifold_nodes: non_manifold_nodes(mesh, edges).len(),
         components: linked.roots().filter(|&r| used[r as usize]).count(),
         euler: nodes as i64 - edges.len() as i64 + mesh.face_count() as i64,
         disagreeing_edges: edge_ids(edges).filter(|&e| disagrees(mesh, &uses, e)).count(),
@@ -114,20 +114,23 @@ pub fn two_colouring(nodes: usize, edges: &Edges) -> Result<Vec<bool>, EdgeId> {
 /// The nodes around which the faces form more than one fan, with the number of fans.
 ///
 /// Corners at a node belong to one fan if their faces share an edge there.
-pub(crate) fn non_manifold_nodes(mesh: &impl Faces, uses: &EdgeUses, edges: &Edges) -> Vec<(NodeId, usize)> {
+pub(crate) fn non_manifold_nodes(mesh: &impl Faces, edges: &Edges) -> Vec<(NodeId, usize)> {
     let corners = mesh.corners();
     let mut fans = Sets::new(corners.len());
-    let next = |k: u32| {
-        let range = mesh.range(mesh.face_of(k as usize));
-        (if k as usize + 1 == range.end { range.start } else { k as usize + 1 }) as u32
-    };
-    for e in edge_ids(edges) {
-        for pair in uses.at(e).windows(2) {
-            let [k, l] = [pair[0], pair[1]];
-            let same_way = corners[k as usize] == corners[l as usize];
-            let (at_l, beyond_l) = if same_way { (l, next(l)) } else { (next(l), l) };
-            fans.join(k, at_l, false);
-            fans.join(next(k), beyond_l, false);
+    // For each edge the corners at its two ends in the face that came last.
+    let mut before = vec![[NONE; 2]; edges.len()];
+    for f in 0..mesh.face_count() {
+        let range = mesh.range(f);
+        for k in range.clone() {
+            let next = if k + 1 == range.end { range.start } else { k + 1 };
+            let e = edges.of_corner[k].index();
+            let forwards = corners[k] == edges.ends[e][0];
+            let here = if forwards { [k as u32, next as u32] } else { [next as u32, k as u32] };
+            let there = std::mem::replace(&mut before[e], here);
+            if there[0] != NONE {
+                fans.join(here[0], there[0], false);
+                fans.join(here[1], there[1], false);
+            }
         }
     }
     let mut count = vec![0u32; mesh.node_count()];
@@ -137,6 +140,9 @@ pub(crate) fn non_manifold_nodes(mesh: &impl Faces, uses: &EdgeUses, edges: &Edg
     let several = count.iter().enumerate().filter(|&(_, &c)| c > 1);
     several.map(|(n, &c)| (NodeId::new(n), c as usize)).collect()
 }
+
+/// No corner, or no face.
+const NONE: u32 = u32::MAX;
 
 fn boundary_loops(nodes: usize, edges: &Edges, boundary: &[EdgeId]) -> usize {
     let mut linked = Sets::new(nodes);
@@ -152,12 +158,13 @@ fn boundary_loops(nodes: usize, edges: &Edges, boundary: &[EdgeId]) -> usize {
 
 fn is_orientable(mesh: &impl Faces, uses: &EdgeUses, edges: &Edges) -> bool {
     let mut turned = Sets::new(mesh.face_count());
-    edge_ids(edges).all(|e| match uses.at(e) {
-        &[k, l] => {
-            let [f, g] = [k, l].map(|k| mesh.face_of(k as usize) as u32);
-            turned.join(f, g, disagrees(mesh, uses, e))
-        }
-        _ => true,
+    let mut first_face = vec![NONE; edges.len()];
+    (0..mesh.face_count()).all(|f| {
+        mesh.range(f).all(|k| {
+            let e = edges.of_corner[k];
+            let other = std::mem::replace(&mut first_face[e.index()], f as u32);
+            other == NONE || uses.count(e) != 2 || turned.join(f as u32, other, disagrees(mesh, uses, e))
+        })
     })
 }
 
