@@ -1,7 +1,8 @@
 //! `hexmill check`.
 
 use hexmill::io::{AnyMesh, Document};
-use hexmill::mesh::PolygonMesh;
+use hexmill::mesh::check::{DefectCount, Severity};
+use hexmill::mesh::{PolygonMesh, check_polygons};
 
 use crate::args::CheckArgs;
 use crate::distance::{Distances, Triangles};
@@ -23,7 +24,8 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     }
     let level = std::mem::take(&mut document.level);
     let surface = document.into_surface().expect("hexes were refused above");
-    let mesh = progress.stage("check", || MeshReport::of_polygons(&surface, &level));
+    let mut mesh = progress.stage("measure", || MeshReport::of_polygons(&surface, &level));
+    progress.stage("check", || mesh.check(&surface, check_polygons));
     let mut report = Report::new("check", InputReport::new(&loaded, &surface), mesh);
     report.distance = match &args.surface {
         Some(path) => {
@@ -48,8 +50,8 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
 
 /// Refuses a mesh that does not conform.
 fn verdict(args: &CheckArgs, report: &Report) -> Result<(), Failure> {
-    let defects = &report.mesh.defects;
-    let Some(worst) = defects.counts.first().filter(|_| !defects.conforming) else { return Ok(()) };
+    let refused = report.mesh.defects.as_ref().filter(|defects| !defects.conforming);
+    let Some(worst) = refused.and_then(|defects| defects.counts.first()) else { return Ok(()) };
     let message = format!("{}: is not a conforming mesh: {worst}; mend the mesh", args.mesh.display());
     Err(Failure::refused("mesh-not-conforming", message))
 }
@@ -69,15 +71,11 @@ fn in_words(args: &CheckArgs, report: &Report) -> String {
         ));
     }
     lines.extend(mesh.quality.as_ref().map(quality_table));
-    for defect in &mesh.defects.counts {
-        let severity = match defect.severity {
-            hexmill::mesh::check::Severity::Error => "error",
-            hexmill::mesh::check::Severity::Note => "note",
-        };
-        lines.push(format!("  {severity}: {defect}"));
-    }
-    if mesh.defects.counts.is_empty() {
-        lines.push("  no defects".to_owned());
+    if let Some(defects) = &mesh.defects {
+        lines.extend(defects.counts.iter().map(defect_line));
+        if defects.counts.is_empty() {
+            lines.push("  no defects".to_owned());
+        }
     }
     if let Some(distance) = &report.distance {
         lines.push(format!("  distance to the surface: {}", distance.mesh_to_surface.in_words()));
@@ -85,4 +83,12 @@ fn in_words(args: &CheckArgs, report: &Report) -> String {
     }
     lines.extend(mesh.hash.map(|hash| format!("  hash {hash}")));
     lines.join("\n") + "\n"
+}
+
+fn defect_line(defect: &DefectCount) -> String {
+    let severity = match defect.severity {
+        Severity::Error => "error",
+        Severity::Note => "note",
+    };
+    format!("  {severity}: {defect}")
 }

@@ -3,14 +3,25 @@
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard};
 
 use hexmill::io::{self, Document, Format};
 
 use crate::failure::Failure;
 
-/// The temporary file that is being written, which an interruption removes.
-static UNFINISHED: Mutex<Option<PathBuf>> = Mutex::new(None);
+/// What an interruption has to know of the files that are written.
+struct Outputs {
+    /// The temporary file that is being written, to be removed.
+    unfinished: Option<PathBuf>,
+    /// The files that are done.
+    written: Vec<String>,
+}
+
+static OUTPUTS: Mutex<Outputs> = Mutex::new(Outputs { unfinished: None, written: Vec::new() });
+
+fn outputs() -> MutexGuard<'static, Outputs> {
+    OUTPUTS.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+}
 
 /// The exit code of a program that Ctrl-C ended, as shells have it: 128 + SIGINT.
 const INTERRUPTED: i32 = 130;
@@ -18,12 +29,15 @@ const INTERRUPTED: i32 = 130;
 /// Makes Ctrl-C (and a request to terminate) remove what is half written before it ends the program.
 pub(crate) fn remove_unfinished_when_interrupted() {
     let stop = || {
-        let unfinished = UNFINISHED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        if let Some(path) = unfinished.as_ref() {
+        let outputs = outputs();
+        if let Some(path) = &outputs.unfinished {
             // It may be gone already; there is nobody left to tell.
             let _ = fs::remove_file(path);
         }
-        eprintln!("interrupted: nothing was written");
+        match outputs.written.as_slice() {
+            [] => eprintln!("interrupted: nothing was written"),
+            written => eprintln!("interrupted after {} was written", written.join(", ")),
+        }
         // The lock is still held, so that no output is renamed into place between here and the end.
         std::process::exit(INTERRUPTED);
     };
@@ -72,16 +86,14 @@ pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     }
     let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = temporary_file(folder).map_err(failed)?;
-    set_unfinished(Some(file.path().to_owned()));
-    let written = file.write_all(bytes).and_then(|()| file.as_file().sync_all());
-    let mut unfinished = UNFINISHED.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-    let done = written.and_then(|()| file.persist(&target).map(drop).map_err(|e| e.error));
-    *unfinished = None;
-    done.map_err(failed)
-}
-
-fn set_unfinished(path: Option<PathBuf>) {
-    *UNFINISHED.lock().unwrap_or_else(|poisoned| poisoned.into_inner()) = path;
+    outputs().unfinished = Some(file.path().to_owned());
+    let filled = file.write_all(bytes).and_then(|()| file.as_file().sync_all());
+    let mut outputs = outputs();
+    let done = filled.and_then(|()| file.persist(&target).map(drop).map_err(|e| e.error));
+    outputs.unfinished = None;
+    done.map_err(failed)?;
+    outputs.written.push(path.display().to_string());
+    Ok(())
 }
 
 /// A new file in `folder` that others may read as they may read any new file.

@@ -1,7 +1,7 @@
 //! `hexmill refine`.
 
 use hexmill::io::{self, AnyMesh, Document};
-use hexmill::mesh::PolygonMesh;
+use hexmill::mesh::{PolygonMesh, check_quads};
 use hexmill::refine::{QuadOptions, refine_quads};
 
 use crate::args::RefineArgs;
@@ -39,8 +39,11 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     drop(bytes);
 
     let AnyMesh::Quads(mesh) = &document.mesh else { unreachable!("refinement makes quads") };
-    let mesh = progress.stage("check", || MeshReport::of_quads(mesh, &document.level, capped));
-    let mut report = Report::new("refine", input, mesh);
+    let mut measured = progress.stage("measure", || MeshReport::of_quads(mesh, &document.level, capped));
+    if args.report.is_some() {
+        progress.stage("check", || measured.check(mesh, check_quads));
+    }
+    let mut report = Report::new("refine", input, measured);
     report.options = Some(options_report(args, &options));
     report.output = Some(output);
     (report.stages, report.seconds) = progress.finish();
@@ -106,7 +109,6 @@ fn in_words(args: &RefineArgs, report: &Report) -> String {
         ));
     }
     lines.extend(mesh.quality.as_ref().map(crate::report::quality_table));
-    lines.extend(mesh.defects.counts.iter().map(|defect| format!("  note: {defect}")));
     lines.extend(mesh.hash.map(|hash| format!("  hash {hash}, {:.2} s", report.seconds)));
     lines.join("\n") + "\n"
 }

@@ -7,9 +7,7 @@ use hexmill::io::Format;
 use hexmill::mesh::check::{DefectCount, summary};
 use hexmill::mesh::quality::{Distribution, QualityReport, quad_quality};
 use hexmill::mesh::topology::{SurfaceReport, surface_report};
-use hexmill::mesh::{
-    Defect, Edges, MeshHash, NodeId, PolygonMesh, QuadMesh, check_polygons, check_quads, mesh_hash,
-};
+use hexmill::mesh::{Defect, Edges, Faces, MeshHash, NodeId, PolygonMesh, QuadMesh, mesh_hash};
 use serde::Serialize;
 
 use crate::distance::Distances;
@@ -176,9 +174,11 @@ pub(crate) struct MeshReport {
     pub(crate) hash: Option<MeshHash>,
     pub(crate) levels: Vec<LevelCount>,
     pub(crate) capped: usize,
-    pub(crate) topology: Option<SurfaceReport>,
     pub(crate) quality: Option<QualityReport>,
-    pub(crate) defects: Defects,
+    /// Filled in by [`MeshReport::check`].
+    pub(crate) topology: Option<SurfaceReport>,
+    /// Filled in by [`MeshReport::check`].
+    pub(crate) defects: Option<Defects>,
 }
 
 /// How many cells are of a level.
@@ -209,34 +209,40 @@ impl Defects {
 }
 
 impl MeshReport {
-    /// Looks over a quad mesh whose quads have these levels (none, or one a quad).
+    /// Measures a quad mesh whose quads have these levels (none, or one a quad).
     pub(crate) fn of_quads(mesh: &QuadMesh, level: &[u8], capped: usize) -> Self {
         Self {
             counts: Counts::of_quads(mesh),
             hash: Some(mesh_hash(&mesh.positions, &mesh.quads)),
             levels: levels(level),
             capped,
-            topology: Some(surface_report(mesh, &Edges::of(mesh))),
             quality: quad_quality(mesh).report(),
-            defects: Defects::new(check_quads(mesh)),
+            topology: None,
+            defects: None,
         }
     }
 
-    /// Looks over a polygon mesh. Quality is that of its quads.
+    /// Measures a polygon mesh. Quality is that of its quads.
     pub(crate) fn of_polygons(mesh: &PolygonMesh, level: &[u8]) -> Self {
+        let quads = quads_of(mesh);
         if mesh.is_all_quad() {
-            return Self::of_quads(&quads_of(mesh), level, 0);
+            return Self::of_quads(&quads, level, 0);
         }
-        let defects = Defects::new(check_polygons(mesh));
         Self {
             counts: Counts::of_polygons(mesh),
             hash: triangles_of(mesh).map(|triangles| mesh_hash(&mesh.positions, &triangles)),
             levels: levels(level),
             capped: 0,
-            topology: Some(surface_report(mesh, &Edges::of(mesh))),
-            quality: quad_quality(&quads_of(mesh)).report(),
-            defects,
+            quality: quad_quality(&quads).report(),
+            topology: None,
+            defects: None,
         }
+    }
+
+    /// Adds what kind of surface the mesh is, and its `defects`: the slow part.
+    pub(crate) fn check<M: Faces>(&mut self, mesh: &M, defects: fn(&M) -> Vec<Defect>) {
+        self.topology = Some(surface_report(mesh, &Edges::of(mesh)));
+        self.defects = Some(Defects::new(defects(mesh)));
     }
 }
 
