@@ -64,7 +64,8 @@ fn shapes() -> [(Shape, Distance); 4] {
     let rotation = DQuat::from_xyzw(0.1, 0.0, 0.5, 0.8).normalize();
     let (from, to) = (Point::new(4.0, 4.0, -1.0), Point::new(4.6, 3.4, 2.0));
     let points = vec![Point::new(1.0, 1.0, 0.5), Point::new(5.0, 1.5, -0.2)];
-    let box_gap = move |p: Point| ((rotation.inverse() * (p - center)).abs() - half).max(Point::ZERO).length();
+    let box_gap =
+        move |p: Point| ((rotation.inverse() * (p - center)).abs() - half).max(Point::ZERO).length();
     let axis = (to - from).normalize();
     let cylinder_gap = move |p: Point| {
         let along = (p - from.midpoint(to)).dot(axis);

@@ -7,7 +7,7 @@ use std::sync::Mutex;
 
 use hexmill::io::{self, Document, Format};
 
-use crate::failure::Failure;
+use super::failure::Failure;
 
 /// The temporary file that is being written, which an interruption removes.
 static UNFINISHED: Mutex<Option<PathBuf>> = Mutex::new(None);
