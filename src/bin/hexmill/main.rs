@@ -1,35 +1,13 @@
-//! The command line of hexmill: reads files, calls the library, writes files and tells how it went.
+//! The program: the command line, and on the web, where there is none, nothing. Cargo builds it there for
+//! `wasm-pack test`.
 
-mod args;
-mod check;
-mod convert;
-mod distance;
-mod failure;
-mod files;
-mod progress;
-mod refine;
-mod region;
-mod report;
+#[cfg(not(target_arch = "wasm32"))]
+mod cli;
 
-use std::process::ExitCode;
-
-use clap::Parser;
-
-use args::{Cli, Command};
-
-fn main() -> ExitCode {
-    files::remove_unfinished_when_interrupted();
-    let cli = Cli::parse();
-    let done = match cli.command {
-        Command::Refine(args) => refine::run(&args, cli.quiet),
-        Command::Check(args) => check::run(&args, cli.quiet),
-        Command::Convert(args) => convert::run(&args, cli.quiet),
-    };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            eprintln!("{failure}");
-            failure.exit_code()
-        }
-    }
+#[cfg(not(target_arch = "wasm32"))]
+fn main() -> std::process::ExitCode {
+    cli::run()
 }
+
+#[cfg(target_arch = "wasm32")]
+fn main() {}

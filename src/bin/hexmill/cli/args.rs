@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::region::RegionArg;
+use super::region::RegionArg;
 
 /// Conforming quad meshes from polygon surfaces.
 ///
@@ -102,7 +102,7 @@ pub(crate) struct RefineArgs {
     pub(crate) edge_length: Option<f64>,
 
     /// Where to refine further, as KIND:NUMBERS:h=SIZE or KIND:NUMBERS:level=N; may be given many times
-    #[arg(long = "region", short = 'r', value_name = "REGION", value_parser = crate::region::parse)]
+    #[arg(long = "region", short = 'r', value_name = "REGION", value_parser = super::region::parse)]
     pub(crate) regions: Vec<RegionArg>,
 
     /// Refine everything at least this many times

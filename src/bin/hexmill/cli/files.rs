@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard};
 
 use hexmill::io::{self, Document, Format};
 
-use crate::failure::Failure;
+use super::failure::Failure;
 
 /// What an interruption has to know of the files that are written.
 struct Outputs {

@@ -4,13 +4,13 @@ use hexmill::io::{AnyMesh, Document};
 use hexmill::mesh::check::{DefectCount, Severity};
 use hexmill::mesh::{PolygonMesh, check_polygons};
 
-use crate::args::CheckArgs;
-use crate::distance::{Distances, Triangles};
-use crate::failure::Failure;
-use crate::files::load;
-use crate::progress::Progress;
-use crate::region::{load_triangles, triangles_of};
-use crate::report::{InputReport, MeshReport, Report, peak_memory_bytes, quality_table};
+use super::args::CheckArgs;
+use super::distance::{Distances, Triangles};
+use super::failure::Failure;
+use super::files::load;
+use super::progress::Progress;
+use super::region::{load_triangles, triangles_of};
+use super::report::{InputReport, MeshReport, Report, peak_memory_bytes, quality_table};
 
 /// Reads a mesh, looks it over and tells; refuses a mesh that does not conform.
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {

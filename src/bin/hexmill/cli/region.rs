@@ -7,8 +7,8 @@ use hexmill::geometry::Point;
 use hexmill::mesh::{NodeId, PolygonMesh};
 use hexmill::sizing::{Region, Shape, Target};
 
-use crate::failure::Failure;
-use crate::files::load;
+use super::failure::Failure;
+use super::files::load;
 
 /// A region of the command line, its files not yet read.
 #[derive(Clone, Debug)]

@@ -2,10 +2,10 @@
 
 use hexmill::io;
 
-use crate::args::ConvertArgs;
-use crate::failure::Failure;
-use crate::files::{format_of, load, save};
-use crate::progress::Progress;
+use super::args::ConvertArgs;
+use super::failure::Failure;
+use super::files::{format_of, load, save};
+use super::progress::Progress;
 
 /// Reads a mesh and writes it in another format.
 pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {

@@ -10,10 +10,10 @@ use hexmill::mesh::topology::{SurfaceReport, surface_report};
 use hexmill::mesh::{Defect, Edges, Faces, MeshHash, NodeId, PolygonMesh, QuadMesh, mesh_hash};
 use serde::Serialize;
 
-use crate::distance::Distances;
-use crate::failure::Failure;
-use crate::files::{Loaded, save};
-use crate::progress::StageSeconds;
+use super::distance::Distances;
+use super::failure::Failure;
+use super::files::{Loaded, save};
+use super::progress::StageSeconds;
 
 /// The version of the record's form. Fields may be added within a version, but not changed or removed.
 const SCHEMA: &str = "hexmill-report/1";

@@ -4,11 +4,11 @@ use hexmill::io::{self, AnyMesh, Document};
 use hexmill::mesh::{PolygonMesh, check_quads};
 use hexmill::refine::{QuadOptions, refine_quads};
 
-use crate::args::RefineArgs;
-use crate::failure::Failure;
-use crate::files::{format_of, load, save};
-use crate::progress::Progress;
-use crate::report::{FileReport, InputReport, MeshReport, OptionsReport, Report, peak_memory_bytes};
+use super::args::RefineArgs;
+use super::failure::Failure;
+use super::files::{format_of, load, save};
+use super::progress::Progress;
+use super::report::{FileReport, InputReport, MeshReport, OptionsReport, Report, peak_memory_bytes};
 
 /// Reads, refines, writes and reports.
 pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
@@ -108,7 +108,7 @@ fn in_words(args: &RefineArgs, report: &Report) -> String {
             report.options.as_ref().map_or(0, |o| o.max_levels)
         ));
     }
-    lines.extend(mesh.quality.as_ref().map(crate::report::quality_table));
+    lines.extend(mesh.quality.as_ref().map(super::report::quality_table));
     lines.extend(mesh.hash.map(|hash| format!("  hash {hash}, {:.2} s", report.seconds)));
     lines.join("\n") + "\n"
 }

@@ -1,0 +1,36 @@
+//! The command line of hexmill: reads files, calls the library, writes files and tells how it went.
+
+mod args;
+mod check;
+mod convert;
+mod distance;
+mod failure;
+mod files;
+mod progress;
+mod refine;
+mod region;
+mod report;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Cli, Command};
+
+/// Does what the arguments ask for.
+pub fn run() -> ExitCode {
+    files::remove_unfinished_when_interrupted();
+    let cli = Cli::parse();
+    let done = match cli.command {
+        Command::Refine(args) => refine::run(&args, cli.quiet),
+        Command::Check(args) => check::run(&args, cli.quiet),
+        Command::Convert(args) => convert::run(&args, cli.quiet),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{failure}");
+            failure.exit_code()
+        }
+    }
+}
