@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use hexmill::Silent;
 use hexmill::io::{AnyMesh, Format, read};
-use hexmill::mesh::hash::mesh_hash;
+use hexmill::mesh::mesh_hash;
 use hexmill::refine::{QuadOptions, refine_quads};
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -35,6 +35,13 @@ const THREADS_FLAGS = [
   ...['__wasm_init_tls', '__tls_size', '__tls_align', '__tls_base'].map((name) => `-C link-arg=--export=${name}`),
 ].join(' ');
 
+// Without a default path bundlers do not look for the module beside the JavaScript: callers name it. The names of
+// functions would be a tenth of what is loaded.
+const BINDGEN_FLAGS = [
+  ...['--target', 'web', '--omit-default-module-path'],
+  ...['--remove-name-section', '--remove-producers-section'],
+];
+
 // What the modules may use; wasm-opt would otherwise take only what it finds marked in them.
 const BINARYEN_FEATURES = [
   'bulk-memory',
@@ -83,7 +90,8 @@ async function buildFlavour(flavour, run) {
   const compiled = await compile(flavour, run);
   const folder = join(OUT, flavour.name);
   const stamp = join(folder, '.stamp');
-  const recipe = [compiled, JSON.stringify(flavour), output('wasm-bindgen', ['--version'])];
+  const flags = JSON.stringify([flavour, BINDGEN_FLAGS, BINARYEN_FEATURES]);
+  const recipe = [compiled, flags, output('wasm-bindgen', ['--version'])];
   const hash = recipe.reduce((sum, part) => sum.update(part), createHash('sha256')).digest('hex');
   if (!existsSync(stamp) || readFileSync(stamp, 'utf8') !== hash) {
     rmSync(folder, { recursive: true, force: true });
@@ -115,8 +123,7 @@ function compiledPath(name, profile) {
 
 /** Makes the JavaScript side with wasm-bindgen and optimizes the module with Binaryen. */
 async function bind({ name, profile = 'release', optimize }, folder, run) {
-  // Without a default path bundlers do not look for the module beside the JavaScript: callers name it.
-  const how = ['--target', 'web', '--omit-default-module-path', '--out-dir', folder, '--out-name', name];
+  const how = [...BINDGEN_FLAGS, '--out-dir', folder, '--out-name', name];
   await must('wasm-bindgen', [compiledPath(name, profile), ...how], run);
   rmSync(join(folder, `${name}_bg.wasm.d.ts`));
   const bound = join(folder, `${name}_bg.wasm`);

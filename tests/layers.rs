@@ -36,22 +36,20 @@ fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
     }
 }
 
-/// The modules that code names by `crate::…` or `hexmill::…`, comments aside.
-fn modules_named(source: &str) -> Vec<String> {
+/// The modules of the library that code names by `prefix`, comments aside.
+fn modules_named(source: &str, prefix: &str) -> Vec<String> {
     let code: String = source.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
     let mut names = Vec::new();
-    for prefix in ["crate::", "hexmill::"] {
-        for (at, _) in code.match_indices(prefix) {
-            let rest = &code[at + prefix.len()..];
-            let items: Vec<&str> = match rest.strip_prefix('{') {
-                Some(inner) => top_level_items(inner),
-                None => vec![rest],
-            };
-            let name = |item: &str| -> String {
-                item.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-            };
-            names.extend(items.into_iter().map(name).filter(|n| !n.is_empty()));
-        }
+    for (at, _) in code.match_indices(prefix) {
+        let rest = &code[at + prefix.len()..];
+        let items: Vec<&str> = match rest.strip_prefix('{') {
+            Some(inner) => top_level_items(inner),
+            None => vec![rest],
+        };
+        let name = |item: &str| -> String {
+            item.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+        };
+        names.extend(items.into_iter().map(name).filter(|n| !n.is_empty()));
     }
     names
 }
@@ -81,7 +79,9 @@ fn top_level_items(list: &str) -> Vec<&str> {
 fn violations(module: &str, source: &str) -> Vec<String> {
     let ranks = ranks();
     let rank = ranks[module];
-    modules_named(source)
+    // The command line is a crate of its own, that sees the library from outside.
+    let prefix = if module == "bin" { "hexmill::" } else { "crate::" };
+    modules_named(source, prefix)
         .into_iter()
         .filter(|name| name != module && !ROOT_EXPORTS.contains(&name.as_str()))
         .filter_map(|name| match ranks.get(name.as_str()) {

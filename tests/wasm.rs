@@ -26,7 +26,7 @@ fn errors_name_the_line() {
 #[wasm_bindgen_test]
 fn obj_survives_a_round_trip() {
     for case in cases::cases() {
-        let document = io::read(case.obj.as_bytes(), Format::Obj).expect("a case is a good OBJ");
+        let document = io::read(case.obj().as_bytes(), Format::Obj).expect("a case is a good OBJ");
         let written = io::write(&document, Format::Obj).expect("OBJ holds every surface");
         let again = io::read(&written, Format::Obj).expect("what was written can be read");
         assert_eq!(again, document, "{}", case.name);

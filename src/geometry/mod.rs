@@ -9,6 +9,7 @@ mod frame;
 mod gjk;
 mod nearest_triangle;
 mod quad_hull;
+mod triangulate;
 
 pub use aabb::Aabb;
 pub use box_index::BoxIndex;
@@ -19,6 +20,7 @@ pub use frame::Frame;
 pub use gjk::{Convex, hull_within};
 pub use nearest_triangle::NearestTriangle;
 pub use quad_hull::QuadHull;
+pub use triangulate::{area_vector, triangulate};
 
 /// A point or vector in space, f64.
 pub type Point = glam::DVec3;

@@ -50,7 +50,7 @@ mod tests {
     fn sheet(n: usize) -> Vec<[Point; 3]> {
         let at = |i: usize, j: usize| {
             let [x, y] = [i, j].map(|k| k as f64 / n as f64);
-            Point::new(x, y, if (i + j) % 2 == 0 { 0.0 } else { 0.1 })
+            Point::new(x, y, if (i + j).is_multiple_of(2) { 0.0 } else { 0.1 })
         };
         let cell =
             |i, j| [[at(i, j), at(i + 1, j), at(i, j + 1)], [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]];

@@ -1,6 +1,6 @@
 //! Bytes in, bytes out. No paths, no printing.
 //!
-//! Every format is a module with a `read`, a `write` or both; [`read`] and [`write`] choose among them.
+//! Every format is a module with a `read`, a `write` or both; [`read()`] and [`write()`] choose among them.
 //! A reader refuses only what a [`Document`] cannot represent; what is doubtful in a mesh (repeated
 //! nodes, faces of no area, nodes that no face uses) is for [`crate::mesh`]'s checks to report.
 
@@ -39,11 +39,13 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
         Format::Vtu => vtu::read(bytes),
         Format::Vtk => vtk::read(bytes),
         Format::Msh => msh::read(bytes),
-        _ => Err(ReadError {
+        Format::Inp => inp::read(bytes),
+        Format::Medit => medit::read(bytes),
+        Format::Glb => Err(ReadError {
             format,
             line: None,
             code: "format-not-read",
-            message: format!("{format} files are not read: convert the mesh to OBJ first"),
+            message: "GLB files are only written: give the mesh as OBJ or another format".into(),
         }),
     }
 }
@@ -55,10 +57,8 @@ pub fn write(document: &Document, format: Format) -> Result<Vec<u8>, WriteError>
         Format::Vtu => vtu::write(document),
         Format::Vtk => vtk::write(document),
         Format::Msh => msh::write(document),
-        _ => Err(WriteError {
-            format,
-            code: "format-not-written",
-            message: format!("{format} files are not written: write OBJ"),
-        }),
+        Format::Inp => inp::write(document),
+        Format::Medit => medit::write(document),
+        Format::Glb => glb::write(document),
     }
 }

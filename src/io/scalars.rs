@@ -96,11 +96,6 @@ pub(super) enum ByteOrder {
     Big,
 }
 
-impl ByteOrder {
-    /// The order of this machine.
-    pub const NATIVE: Self = if cfg!(target_endian = "big") { Self::Big } else { Self::Little };
-}
-
 /// The numbers of an array.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Column {

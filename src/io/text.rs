@@ -16,20 +16,9 @@ impl Text {
         self.bytes
     }
 
-    /// Number of bytes so far.
-    pub fn len(&self) -> usize {
-        self.bytes.len()
-    }
-
     /// Adds words as they are.
     pub fn word(&mut self, word: &str) -> &mut Self {
         self.bytes.extend_from_slice(word.as_bytes());
-        self
-    }
-
-    /// Adds raw bytes.
-    pub fn raw(&mut self, bytes: &[u8]) -> &mut Self {
-        self.bytes.extend_from_slice(bytes);
         self
     }
 

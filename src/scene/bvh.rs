@@ -10,8 +10,8 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Ray, Surface, triangulate::triangulate};
-use crate::geometry::Point;
+use super::{Ray, Surface};
+use crate::geometry::{Point, triangulate};
 
 /// Children of a box. Wide and shallow: few boxes, and they are read in runs.
 const WIDTH: usize = 8;
@@ -101,8 +101,8 @@ impl Bvh {
             if level > 0 {
                 let below = &self.levels[level - 1];
                 let first = stack.len();
-                for child in index * WIDTH..((index + 1) * WIDTH).min(below.len()) {
-                    stack.extend(below[child].entry(origin, inverse, limit).map(|t| (t, level - 1, child)));
+                for (child, bounds) in below.iter().enumerate().skip(index * WIDTH).take(WIDTH) {
+                    stack.extend(bounds.entry(origin, inverse, limit).map(|t| (t, level - 1, child)));
                 }
                 stack[first..].sort_by(|a, b| b.0.total_cmp(&a.0));
                 continue;

@@ -131,7 +131,7 @@ impl Default for Camera {
             projection: Projection::default(),
         };
         camera.turn_to(Axis::Iso);
-        camera.frame(corners(&unit), Viewport { width: 1.0, height: 1.0 });
+        camera.frame(corners(&unit), Viewport { width: 1.0, height: 1.0 }, DVec2::ONE);
         camera
     }
 }
@@ -194,11 +194,11 @@ impl Camera {
         };
     }
 
-    /// Moves until the points fill the viewport, as near as they all can be seen. Without points nothing
-    /// happens.
-    pub fn frame(&mut self, points: impl IntoIterator<Item = Point>, viewport: Viewport) {
+    /// Moves until the points fill the middle of the viewport, of which they take the `share` across and down,
+    /// as near as they all can be seen. Without points nothing happens.
+    pub fn frame(&mut self, points: impl IntoIterator<Item = Point>, viewport: Viewport, share: DVec2) {
         let [right, up, forward] = self.axes();
-        let tangents = tangents(viewport) / FRAME_MARGIN;
+        let tangents = tangents(viewport) * share / FRAME_MARGIN;
         // How far the points reach beyond each side of a pyramid whose tip is at the origin, or of a shaft.
         let slope = if self.projection == Projection::Perspective { tangents } else { DVec2::ZERO };
         let mut reach = [DVec2::NEG_INFINITY; 2];
@@ -362,7 +362,7 @@ mod tests {
     fn framed(projection: Projection, axis: Axis) -> Camera {
         let mut camera = Camera { projection, ..Camera::default() };
         camera.look_along(axis);
-        camera.frame(corners(&part()), VIEW);
+        camera.frame(corners(&part()), VIEW, DVec2::ONE);
         camera
     }
 

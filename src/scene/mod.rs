@@ -18,7 +18,6 @@ mod region;
 mod state;
 mod surface;
 mod theme;
-mod triangulate;
 
 pub use bvh::{Bvh, Hit};
 pub use camera::{Axis, Camera, Projection, Ray, Up, Viewport};
@@ -30,4 +29,5 @@ pub use region::{Placement, Solid, SurfacePoint};
 pub use state::{Scene, Style};
 pub use surface::{Surface, SurfaceError, TriangleBuffers};
 pub use theme::{Background, Rgba, Theme};
-pub use triangulate::triangulate;
+
+pub use crate::geometry::triangulate;

@@ -183,7 +183,7 @@ const LETTERS: [&[[[f64; 2]; 2]]; 3] = [
 /// Three arms that show where x, y and z go; those that point away are drawn first.
 fn add_triad(out: &mut FrontBuffers, scene: &Scene, frame: &Frame, theme: &Theme) {
     let [right, up, forward] = scene.camera.axes();
-    let origin = DVec2::new(scene.style.covered + TRIAD, scene.viewport.height - TRIAD);
+    let origin = DVec2::new(scene.style.covered[0] + TRIAD, scene.viewport.height - TRIAD);
     let place = |pixel: DVec2| {
         let at: Point = scene.camera.point_at_depth_of(scene.camera.target(), pixel, scene.viewport);
         frame.scene(at)

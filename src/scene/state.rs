@@ -22,14 +22,14 @@ pub struct Style {
     pub edge_width: f32,
     /// What stands behind the model.
     pub background: Background,
-    /// CSS pixels at the left and at the right of the canvas that something covers: what is framed and the
-    /// axes stay clear of them.
-    pub covered: f64,
+    /// CSS pixels at both sides, and at the upper and lower end, of the canvas that something covers: what is
+    /// framed and the axes stay clear of them.
+    pub covered: [f64; 2],
 }
 
 impl Default for Style {
     fn default() -> Self {
-        Self { edges: true, edge_width: 1.0, background: Background::default(), covered: 0.0 }
+        Self { edges: true, edge_width: 1.0, background: Background::default(), covered: [0.0; 2] }
     }
 }
 
@@ -275,14 +275,14 @@ impl Scene {
         let surface = self.surface.iter().flat_map(|s| s.positions());
         let surface = surface.map(move |p| frame.world(p.as_dvec3()));
         let regions = self.placements.iter().flatten().flat_map(|p| corners(&p.bounds()));
-        camera.frame(surface.chain(regions), self.clear());
+        camera.frame(surface.chain(regions), self.viewport, self.clear());
         camera
     }
 
-    /// The part of the canvas that nothing covers; at least a quarter of it.
-    fn clear(&self) -> Viewport {
-        let Viewport { width, height } = self.viewport;
-        Viewport { width: (width - 2.0 * self.style.covered).max(0.25 * width), height }
+    /// The share of the canvas, across and down, that nothing covers; at least a quarter.
+    fn clear(&self) -> DVec2 {
+        let size = DVec2::new(self.viewport.width, self.viewport.height);
+        (1.0 - 2.0 * DVec2::from_array(self.style.covered) / size).max(DVec2::splat(0.25))
     }
 
     /// The camera that shows a face and what is around it, or `None` if there is no such face.
@@ -291,7 +291,7 @@ impl Scene {
         let bounds = surface.face_bounds(face);
         let mut camera = self.camera;
         let around = bounds.grown(FACE_SURROUNDINGS * bounds.diagonal());
-        camera.frame(corners(&around), self.clear());
+        camera.frame(corners(&around), self.viewport, self.clear());
         Some(camera)
     }
 
@@ -338,3 +338,24 @@ impl Scene {
 const ZOOM_LIMITS: [f64; 2] = [1e-5, 50.0];
 /// What is shown around a framed face, in diagonals of it.
 const FACE_SURROUNDINGS: f64 = 3.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_framed_stays_clear_of_what_is_covered() {
+        let nodes = [0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 4.0, 2.0, 0.0, 0.0, 2.0, 1.0];
+        let style = Style { covered: [300.0, 100.0], ..Style::default() };
+        let viewport = Viewport { width: 1000.0, height: 800.0 };
+        let mut scene = Scene { viewport, style, ..Scene::default() };
+        scene.set_surface(Some(Surface::new(&nodes, None, vec![0, 1, 2, 3]).unwrap()));
+        for axis in [Axis::PlusX, Axis::MinusY, Axis::MinusZ, Axis::Iso] {
+            let camera = scene.along(axis);
+            for node in nodes.chunks(3) {
+                let at = camera.pixel(Point::new(node[0], node[1], node[2]), viewport).unwrap();
+                assert!((300.0..=700.0).contains(&at.x) && (100.0..=700.0).contains(&at.y), "{axis:?}: {at}");
+            }
+        }
+    }
+}

@@ -10,12 +10,9 @@ use std::ops::Range;
 
 use glam::{DVec3, Vec3};
 
-use super::{
-    Frame,
-    triangulate::{area_vector, triangulate},
-};
+use super::Frame;
 use crate::{
-    geometry::{Aabb, Point},
+    geometry::{Aabb, Point, area_vector, triangulate},
     mesh::{PolygonMesh, QuadMesh},
 };
 
@@ -323,7 +320,7 @@ mod tests {
             Surface::new(&coordinates, Some(vec![0, 3, 7, 12, 15]), (0..15).map(|i| i % 10).collect())
                 .unwrap();
         assert_eq!(surface.triangle_count(), 7);
-        assert_eq!(surface.runs(100), [0..4]);
+        assert_eq!(surface.runs(100), vec![0..4; 1]);
         assert_eq!(surface.runs(3), [0..2, 2..3, 3..4]);
         assert_eq!(surface.runs(1), [0..1, 1..2, 2..3, 3..4]);
         let tags = surface.triangles(2..3).tags;

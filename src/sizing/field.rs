@@ -6,7 +6,7 @@ use super::curvature::turn_per_length;
 use super::error::{SizingError, validate};
 use super::overlap::{Overlap, Probe};
 use super::{Region, Target};
-use crate::geometry::Point;
+use crate::geometry::{BoxIndex, Point};
 use crate::mesh::{FaceId, PolygonMesh};
 
 /// An element that asks whether it is to be refined.
@@ -44,6 +44,14 @@ pub struct SizeField {
     /// For each input face: no edge longer than this in it. Empty if curvature asks for nothing.
     by_face: Vec<f64>,
     regions: Vec<Graded>,
+    /// Of the regions' boxes, if there are many.
+    index: Option<BoxIndex>,
+    /// How far from the regions their sizes are felt, as a multiple of what an element is longer than its target.
+    spread: f64,
+    /// No target is shorter.
+    finest: f64,
+    /// No region asks for a level beyond this.
+    deepest: u8,
     /// No element of level 1 has a longer edge than this.
     longest: f64,
 }
@@ -53,9 +61,10 @@ pub struct SizeField {
 struct Graded {
     overlap: Overlap,
     target: Target,
-    /// How far from the region an element is too long, as a multiple of what it is longer than the target.
-    spread: f64,
 }
+
+/// So many regions are asked one after the other; among more an index finds those that are near.
+const FEW: usize = 12;
 
 impl SizeField {
     /// Checks the options and prepares them.
@@ -67,15 +76,20 @@ impl SizeField {
     /// If `input` has node ids out of range.
     pub fn new(input: &PolygonMesh, options: SizeOptions<'_>) -> Result<Self, SizingError> {
         validate(&options)?;
-        let spread = if options.gradation < 2.0 { 1.0 / (options.gradation - 1.0) } else { 0.0 };
+        let regions: Vec<Graded> = options.regions.iter().map(Graded::new).collect();
+        let by_face = options.curvature.map_or(Vec::new(), |angle| limits_by_curvature(input, angle));
+        let edge_length = options.edge_length.map_or(f64::INFINITY, limit);
+        let sizes = regions.iter().map(Graded::finest);
+        let children = (0..input.face_count()).into_par_iter().map(|f| longest_child_edge(input, f));
         Ok(Self {
-            edge_length: options.edge_length.map_or(f64::INFINITY, limit),
-            by_face: options.curvature.map_or(Vec::new(), |angle| limits_by_curvature(input, angle)),
-            regions: options.regions.iter().map(|region| Graded::new(region, spread)).collect(),
-            longest: (0..input.face_count())
-                .into_par_iter()
-                .map(|f| longest_child_edge(input, f))
-                .reduce(|| 0.0, f64::max),
+            finest: by_face.iter().copied().chain(sizes).fold(edge_length, f64::min),
+            deepest: regions.iter().map(Graded::deepest).max().unwrap_or(0),
+            longest: children.reduce(|| 0.0, f64::max),
+            spread: if options.gradation < 2.0 { 1.0 / (options.gradation - 1.0) } else { 0.0 },
+            index: (regions.len() > FEW).then(|| BoxIndex::new(regions.iter().map(|r| r.overlap.bounds))),
+            edge_length,
+            by_face,
+            regions,
         })
     }
 
@@ -84,32 +98,34 @@ impl SizeField {
     /// Edges of a quad's children are at most half as long as its longest edge, so below some level all
     /// elements are shorter than every target.
     pub fn is_idle_from(&self, level: u8) -> bool {
-        if level == 0 {
-            return self.edge_length.is_infinite()
-                && self.by_face.is_empty()
-                && self.regions.iter().all(|r| r.target == Target::Level(0));
-        }
-        let longest = self.longest * 0.5_f64.powi(i32::from(level) - 1) * (1.0 + 0.5 * ROUNDING);
-        longest <= self.edge_length
-            && self.by_face.iter().all(|&limit| longest <= limit)
-            && self.regions.iter().all(|r| match r.target {
-                Target::Size(size) => longest <= limit(size),
-                Target::Level(deepest) => deepest <= level,
-            })
+        let longest = match level {
+            0 => f64::INFINITY,
+            _ => self.longest * 0.5_f64.powi(i32::from(level) - 1) * (1.0 + 0.5 * ROUNDING),
+        };
+        longest <= self.finest && level >= self.deepest
     }
 
     /// True if the element is to be refined.
     pub fn wants(&self, element: &SizedElement) -> bool {
-        if element.longest > self.edge_length
-            || self.by_face.get(element.root.index()).is_some_and(|&limit| element.longest > limit)
-        {
-            return true;
-        }
-        if self.regions.is_empty() {
+        let longest = element.longest;
+        if longest <= self.finest && element.level >= self.deepest {
             return false;
         }
+        longest > self.edge_length
+            || self.by_face.get(element.root.index()).is_some_and(|&limit| longest > limit)
+            || self.some_region_wants(element)
+    }
+
+    fn some_region_wants(&self, element: &SizedElement) -> bool {
         let probe = Probe::new(element);
-        self.regions.iter().any(|region| region.wants(element, &probe))
+        let wants = |region: &Graded| region.wants(element, &probe, self.spread);
+        match &self.index {
+            None => self.regions.iter().any(wants),
+            Some(index) => {
+                let near = probe.bounds_within(element.longest * self.spread);
+                index.touching(&near).any(|i| wants(&self.regions[i]))
+            }
+        }
     }
 }
 
@@ -123,16 +139,29 @@ fn limit(target: f64) -> f64 {
 }
 
 impl Graded {
-    fn new(region: &Region, spread: f64) -> Self {
-        Self { overlap: Overlap::new(&region.shape), target: region.target, spread }
+    fn new(region: &Region) -> Self {
+        Self { overlap: Overlap::new(&region.shape), target: region.target }
     }
 
-    fn wants(&self, element: &SizedElement, probe: &Probe) -> bool {
+    fn finest(&self) -> f64 {
+        match self.target {
+            Target::Size(size) => limit(size),
+            Target::Level(_) => f64::INFINITY,
+        }
+    }
+
+    fn deepest(&self) -> u8 {
+        match self.target {
+            Target::Size(_) => 0,
+            Target::Level(level) => level,
+        }
+    }
+
+    fn wants(&self, element: &SizedElement, probe: &Probe, spread: f64) -> bool {
         match self.target {
             Target::Level(level) => element.level < level && self.overlap.is_met(probe, 0.0),
             Target::Size(size) => {
-                element.longest > limit(size)
-                    && self.overlap.is_met(probe, (element.longest - size) * self.spread)
+                element.longest > limit(size) && self.overlap.is_met(probe, (element.longest - size) * spread)
             }
         }
     }

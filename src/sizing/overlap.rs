@@ -20,7 +20,8 @@ use glam::DQuat;
 
 use super::{Shape, SizedElement};
 use crate::geometry::{
-    Aabb, BoxIndex, CenteredBox, CenteredCylinder, Convex, Frame, Point, QuadHull, hull_within,
+    Aabb, BoxIndex, CenteredBox, CenteredCylinder, Convex, Frame, Point, QuadHull, closest_on_triangle,
+    hull_within,
 };
 
 /// An overlap thinner than this share of an element's width is a touch: regions and nodes are often given with four
@@ -49,13 +50,18 @@ impl Probe {
         Self { corners, bounds: Aabb::around(&corners), middle, radius: squared.sqrt() }
     }
 
+    /// A box that touches the bounds of every shape that this element can be found to meet with a reach up to `reach`.
+    pub(super) fn bounds_within(&self, reach: f64) -> Aabb {
+        self.bounds.grown(reach + self.least_extent())
+    }
+
     fn shrunk(&self) -> QuadHull {
         QuadHull::new(self.corners.map(|c| c + (self.middle - c) * TOUCH))
     }
 
-    /// The least extent that a shape has for this element.
+    /// The least extent that a shape has for this element: as far as shrinking moved a corner.
     fn least_extent(&self) -> f64 {
-        (TOUCH + COINCIDENT) * self.radius
+        TOUCH * self.radius
     }
 
     fn coincident(&self) -> f64 {
@@ -67,7 +73,7 @@ impl Probe {
 #[derive(Debug)]
 pub(super) struct Overlap {
     /// Around the shape.
-    bounds: Aabb,
+    pub(super) bounds: Aabb,
     shape: Prepared,
 }
 
@@ -135,8 +141,7 @@ impl Overlap {
 
     /// True if the element overlaps the shape by more than a touch, or is nearer to it than `reach`.
     pub(super) fn is_met(&self, element: &Probe, reach: f64) -> bool {
-        let grown = reach + element.least_extent();
-        self.bounds.grown(grown).touches(&element.bounds) && self.shape.is_met(element, reach)
+        self.bounds.touches(&element.bounds_within(reach)) && self.shape.is_met(element, reach)
     }
 }
 
@@ -169,16 +174,47 @@ impl Prepared {
             }
             Self::Points { points, index, radius } => {
                 let distance = radius.max(least) + coincident + reach;
-                index.touching(&element.bounds.grown(distance)).any(|i| is_near(element, points[i], distance))
+                some_is_near(
+                    element,
+                    index,
+                    distance,
+                    |i| points[i],
+                    |hull, i| hull.within(points[i], distance),
+                )
             }
             Self::Surface { triangles, index, distance } => {
                 let distance = distance.max(least) + coincident + reach;
-                let hull = element.shrunk();
-                let near = |i: usize| hull_within(&hull.corners, &triangles[i], distance);
-                index.touching(&element.bounds.grown(distance)).any(near)
+                let closest = |i: usize| closest_on_triangle(element.middle, triangles[i]);
+                let near = |hull: &QuadHull, i: usize| hull_within(&hull.corners, &triangles[i], distance);
+                some_is_near(element, index, distance, closest, near)
             }
         }
     }
+}
+
+/// True if one of the indexed things comes as near to the shrunk element as `distance`. `closest` gives a thing's
+/// point that is closest to the element's middle; `is_near` tells of it exactly.
+///
+/// Most elements that are met have something near their middle, so the cube in the ball about it is searched first.
+fn some_is_near(
+    element: &Probe,
+    index: &BoxIndex,
+    distance: f64,
+    closest: impl Fn(usize) -> Point,
+    is_near: impl Fn(&QuadHull, usize) -> bool,
+) -> bool {
+    let gap = |i: usize| closest(i).distance_squared(element.middle);
+    let cube = Aabb { min: element.middle, max: element.middle }.grown(distance / 3.0_f64.sqrt());
+    if index.touching(&cube).any(|i| gap(i) <= distance * distance) {
+        return true;
+    }
+    let far = distance + element.radius;
+    let mut hull = None;
+    index.touching(&element.bounds.grown(distance)).any(|i| {
+        let gap = gap(i);
+        gap <= distance * distance
+            || gap <= far * far && is_near(hull.get_or_insert_with(|| element.shrunk()), i)
+    })
 }
 
 /// Asks exactly, in the shape's frame.

@@ -45,7 +45,7 @@ struct StyleChange {
     background: Option<Background>,
     projection: Option<Projection>,
     up: Option<Up>,
-    covered: Option<f64>,
+    covered: Option<[f64; 2]>,
 }
 
 #[derive(serde::Serialize)]
@@ -141,7 +141,7 @@ impl Viewer {
             edges: change.edges.unwrap_or(style.edges),
             edge_width: change.edge_width.unwrap_or(style.edge_width).clamp(0.0, 20.0),
             background: change.background.unwrap_or(style.background),
-            covered: change.covered.unwrap_or(style.covered).max(0.0),
+            covered: change.covered.map_or(style.covered, |covered| covered.map(|pixels| pixels.max(0.0))),
         };
         self.renderer.regions_changed();
         let camera = &mut self.scene.camera;

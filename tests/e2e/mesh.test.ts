@@ -35,7 +35,7 @@ describe.each([
   test('the estimate follows the edge length', async () => {
     const estimate = bench.page.locator('.estimate b');
     const coarse = await estimate.innerText();
-    await bench.fill('No edge longer than', '0.02');
+    await bench.fill('No edge longer than, model units', '0.02');
     await expect.poll(() => estimate.innerText()).not.toBe(coarse);
   });
 
@@ -78,15 +78,15 @@ describe.each([
 
   test('colours show quality and levels', async () => {
     const plain = await bench.picture();
-    await bench.radio('Quality').check();
+    await bench.choice('Colour cells by', 'Quality').check();
     const quality = await bench.picture();
     expect(await bench.difference(plain, quality)).toBeGreaterThan(0.02);
-    await bench.radio('Level').check();
+    await bench.choice('Colour cells by', 'Level').check();
     expect(await bench.difference(quality, await bench.picture())).toBeGreaterThan(0.02);
   });
 
   test('a brushed range of the histogram is what stays coloured', async () => {
-    await bench.radio('Quality').check();
+    await bench.choice('Colour cells by', 'Quality').check();
     const all = await bench.picture();
     const bars = await bench.page.locator('.histogram svg').boundingBox();
     if (!bars) throw new Error('no histogram');

@@ -45,7 +45,7 @@ describe('a bad file', () => {
 test('a field with no number in it says so and changes nothing', async () => {
   const { page } = await open({ link: '#example=pawn&edge-length=0.05' });
   await page.locator('.file-name').waitFor();
-  const field = page.getByLabel('No edge longer than');
+  const field = page.getByLabel('No edge longer than, model units');
   await field.fill('fine');
   await field.press('Enter');
   expect(await page.locator('.field .fault').filter({ hasText: 'number' }).count()).toBe(1);
@@ -99,6 +99,6 @@ test('a lost WebGL context is said, comes back, and harms no mesh', async () => 
   await page.locator('#mesh').click();
   await page.locator('#mesh', { hasText: 'Meshed' }).waitFor();
   await message.waitFor({ state: 'detached', timeout: 20_000 });
-  await bench?.radio('Input').check();
+  await bench?.choice('Show', 'Input').check();
   expect(await bench?.difference(before as Buffer, (await bench.picture()) as Buffer)).toBeLessThan(0.01);
 });

@@ -8,7 +8,7 @@ import { launchBrowser } from '../../scripts/browser.mjs';
 import { serveFolder } from '../../scripts/static-server.mjs';
 
 const SITE = fileURLToPath(new URL('../../site', import.meta.url));
-const MODELS = new URL('../../examples/models/', import.meta.url);
+const MODELS = new URL('../../examples/models/quads/', import.meta.url);
 
 /** The middle of the view at 1440 x 900, clear of the columns and the toolbar. */
 const CLEAR = { x: 330, y: 60, width: 780, height: 660 };
@@ -29,7 +29,7 @@ export interface Setup {
   readonly prepare?: (page: Page) => Promise<unknown>;
 }
 
-/** A model that ships with the page. */
+/** A quad model that ships with the page. */
 export function model(file: string): string {
   return readFileSync(new URL(file, MODELS), 'utf8');
 }
@@ -172,8 +172,9 @@ export class Workbench {
     await mouse.up();
   }
 
-  radio(name: string): Locator {
-    return this.page.getByRole('radio', { name, exact: true });
+  /** One of the choices of a group, such as "Colour cells by". */
+  choice(group: string, name: string): Locator {
+    return this.page.getByRole('radiogroup', { name: group, exact: true }).getByRole('radio', { name, exact: true });
   }
 
   /** Waits for two frames and the end of a camera flight. */

@@ -7,3 +7,4 @@ mod hashes;
 mod obj;
 mod refine;
 mod scene;
+mod sizing;

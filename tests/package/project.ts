@@ -6,13 +6,15 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 
+import { cases } from '../fixtures/cases.js';
+
 const run = promisify(execFile);
 
 /** The repository. */
 export const ROOT = fileURLToPath(new URL('../..', import.meta.url));
 
-/** The file that every surrounding has to reproduce. */
-export const CASES = join(ROOT, 'tests', 'fixtures', 'hashes.json');
+/** The file with the cases that every surrounding has to reproduce, in a scratch project. */
+export const CASES = 'cases.json';
 
 /** The scratch project's folder, and the tarball that is installed in it. */
 export interface Project {
@@ -30,6 +32,7 @@ export async function installPacked(name: string): Promise<Project> {
   if (!packed) throw new Error('npm pack made no tarball');
   cpSync(join(ROOT, 'tests', 'package', 'fixtures'), folder, { recursive: true });
   writeFileSync(join(folder, 'package.json'), '{ "name": "scratch", "private": true, "type": "module" }\n');
+  writeFileSync(join(folder, CASES), JSON.stringify(cases()));
   // The package has no dependencies: there is nothing to download.
   await run('npm', ['install', '--offline', '--no-audit', '--no-fund', `./${packed}`], { cwd: folder });
   return { folder, tarball: join(folder, packed) };

@@ -9,6 +9,7 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
 import { launchBrowser } from '../../scripts/browser.mjs';
 import { serveFolder } from '../../scripts/static-server.mjs';
+import { cases } from '../fixtures/cases.js';
 import { CASES, installPacked, node, tool } from './project.js';
 import type { Project } from './project.js';
 
@@ -26,12 +27,12 @@ interface Outcome {
   ended: string;
 }
 
-const cases: { name: string; hash: string }[] = JSON.parse(readFileSync(CASES, 'utf8'));
+const expected = cases();
 
 function expectGood(outcome: Outcome, threads: number) {
   expect(outcome).toMatchObject({
     threads,
-    hashes: Object.fromEntries(cases.map(({ name, hash }) => [name, hash])),
+    hashes: Object.fromEntries(expected.map(({ name, hash }) => [name, hash])),
     cancelled: 'AbortError',
     faces: 4,
     refused: { name: 'InputError', line: 2 },
@@ -63,7 +64,7 @@ async function runInPage(url: string, options: object): Promise<Outcome> {
     await page.waitForFunction(() => 'scenario' in globalThis, undefined, { timeout: 10_000 });
     const outcome = await page.evaluate(
       ([given, chosen]) => (globalThis as unknown as PageScope).scenario(given, chosen),
-      [cases, options] as const,
+      [expected, options] as const,
     );
     return outcome;
   } finally {

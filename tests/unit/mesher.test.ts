@@ -1,21 +1,10 @@
 // The built package in Node, with its real modules and worker threads.
 
-import { readFileSync } from 'node:fs';
-
 import { createMesher } from 'hexmill';
 import type { Mesher, Progress, QuadOptions } from 'hexmill';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-interface Case {
-  name: string;
-  obj: string;
-  options: QuadOptions;
-  quads: number;
-  nodes: number;
-  hash: string;
-}
-
-const cases: Case[] = JSON.parse(readFileSync(new URL('../fixtures/hashes.json', import.meta.url), 'utf8'));
+import { cases } from '../fixtures/cases.js';
 
 const SQUARE = 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n';
 
@@ -31,7 +20,7 @@ describe.each([1, 2, 4])('on %i threads', (threads) => {
 
   it('uses that many', () => expect(mesher.threads).toBe(threads));
 
-  it.each(cases)('makes the mesh of the fixture: $name', async ({ obj, options, quads, nodes, hash }) => {
+  it.each(cases())('makes the mesh of the fixture: $name', async ({ obj, options, quads, nodes, hash }) => {
     const mesh = await mesher.refineQuads(obj, options);
     expect({ quads: mesh.quads.length / 4, nodes: mesh.nodes.length / 3, hash: mesh.hash }).toEqual({ quads, nodes, hash });
     expect(mesh.level).toHaveLength(quads);
@@ -85,6 +74,20 @@ describe.each([1, 2, 4])('on %i threads', (threads) => {
     const again = await mesher.load(file, { format: 'obj' });
     expect(again.nodes).toEqual(mesh.nodes);
     expect(again.corners).toEqual(mesh.quads);
+  });
+
+  it.each(['vtu', 'vtk', 'msh', 'inp', 'medit'] as const)('exports %s and reads it back', async (format) => {
+    const mesh = await mesher.refineQuads(SQUARE, { levels: 2 });
+    using again = await mesher.load(await mesh.export(format), { format });
+    expect(again.nodes).toEqual(mesh.nodes);
+    expect(again.corners).toEqual(mesh.quads);
+  });
+
+  it('exports GLB', async () => {
+    const mesh = await mesher.refineQuads(SQUARE, { levels: 2 });
+    const file = await mesh.export('glb');
+    expect(new TextDecoder().decode(file.subarray(0, 4))).toBe('glTF');
+    expect(new DataView(file.buffer).getUint32(8, true)).toBe(file.length);
   });
 
   it('asks a size function once a level', async () => {

@@ -38,8 +38,8 @@ export type Style = {
   projection: 'perspective' | 'orthographic';
   /** What is up: z as in CAD, y as in modelling. A change looks from the front, right and above again. */
   up: 'y' | 'z';
-  /** CSS pixels at the left and at the right that panels cover: what is framed and the axes stay clear of them. */
-  covered: number;
+  /** CSS pixels at both sides, and at the upper and lower end, that panels cover: what is framed stays clear of them. */
+  covered: [number, number];
 };
 
 export type Direction = '+x' | '-x' | '+y' | '-y' | '+z' | '-z' | 'iso';
@@ -93,7 +93,7 @@ const DEFAULT_STYLE: Style = {
   background: 'light',
   projection: 'perspective',
   up: 'z',
-  covered: 0,
+  covered: [0, 0],
 };
 const LOST =
   'The browser took the graphics away, often because memory ran out or the graphics driver restarted. ' +

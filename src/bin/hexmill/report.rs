@@ -202,6 +202,7 @@ impl Defects {
     fn new(mut defects: Vec<Defect>) -> Self {
         let counts = summary(&defects);
         let conforming = !defects.iter().any(Defect::is_error);
+        defects.sort_by_key(|defect| std::cmp::Reverse(defect.severity()));
         defects.truncate(LISTED_DEFECTS);
         Self { conforming, counts, list: defects }
     }

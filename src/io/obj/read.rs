@@ -125,8 +125,14 @@ impl<'a> Reader<'a> {
                 self.cursor.skip_statement();
                 Ok(())
             }
-            b"o" => Ok(self.names.set_object(self.cursor.rest_of_statement())),
-            b"usemtl" => Ok(self.names.set_material(self.cursor.rest_of_statement())),
+            b"o" => {
+                self.names.set_object(self.cursor.rest_of_statement());
+                Ok(())
+            }
+            b"usemtl" => {
+                self.names.set_material(self.cursor.rest_of_statement());
+                Ok(())
+            }
             _ => self.other(keyword, line),
         }
     }

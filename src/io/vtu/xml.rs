@@ -98,7 +98,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<XmlFile<'_>, ReadError> {
                 parser.open.push(kind);
             }
             Event::Empty(element) => {
-                if parser.start(&element, start)? == Element::DataArray {
+                let kind = parser.start(&element, start)?;
+                if kind == Element::DataArray {
                     parser.end_array();
                 }
             }

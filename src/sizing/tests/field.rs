@@ -3,11 +3,11 @@
 use proptest::prelude::*;
 
 use super::{
-    OPTIONS, Region, Shape, SizeField, SizeOptions, SizedElement, Target, children, element, field, one_face,
-    square,
+    OPTIONS, Region, Shape, SizeField, SizeOptions, SizedElement, Target, children, distance, element, field,
+    one_face, square,
 };
 use crate::geometry::Point;
-use crate::geometry::samples::{point, points, rotation};
+use crate::geometry::samples::{of_hull, point, points, rotation};
 
 fn ball(target: Target) -> Region {
     Region { shape: Shape::Sphere { center: Point::new(0.5, 0.5, 0.0), radius: 0.1 }, target }
@@ -33,8 +33,9 @@ fn sizes_and_levels_are_reached_not_passed() {
 fn rounding_makes_no_edge_too_long() {
     let corners = [[0.2, 0.2], [0.3, 0.2], [0.3, 0.3], [0.2, 0.3]].map(|[x, y]| Point::new(x, y, 0.0));
     let element = element(corners);
-    assert!(0.8 - 0.7 > 0.1, "rounded");
-    let long = SizedElement { longest: 0.8 - 0.7, ..element };
+    let rounded = std::hint::black_box(0.8) - 0.7;
+    assert!(rounded > 0.1 && rounded < 0.100_000_001, "{rounded}");
+    let long = SizedElement { longest: rounded, ..element };
     let global =
         SizeField::new(&one_face(corners), SizeOptions { edge_length: Some(0.1), ..OPTIONS }).unwrap();
     assert!(!global.wants(&long));
@@ -91,24 +92,6 @@ fn a_polygon_of_many_sides_has_children_longer_than_its_edges() {
     assert!(!field.is_idle_from(1) && !field.is_idle_from(2) && field.is_idle_from(3));
 }
 
-/// The distance of element and shape, from samples of the element.
-fn sampled_distance(corners: [Point; 4], region: &Shape) -> f64 {
-    let gap = |p: Point| match region {
-        Shape::Box { min, max, rotation } => {
-            let local = rotation.inverse() * (p - min.midpoint(*max));
-            (local.abs() - (*max - *min) * 0.5).max(Point::ZERO).length()
-        }
-        Shape::Cylinder { from, to, radius } => {
-            let axis = (*to - *from).normalize();
-            let along = (p - from.midpoint(*to)).dot(axis);
-            let across = (p - from.midpoint(*to) - axis * along).length();
-            (along.abs() - from.distance(*to) * 0.5).max(0.0).hypot((across - radius).max(0.0))
-        }
-        other => unreachable!("{other:?}"),
-    };
-    crate::geometry::samples::of_hull(corners, 20).map(gap).fold(f64::INFINITY, f64::min)
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
 
@@ -125,7 +108,8 @@ proptest! {
             Shape::Box { min: middle - half, max: middle + half, rotation: turn }
         };
         let element = element(corners);
-        let distance = sampled_distance(corners, &shape);
+        let gaps = of_hull(corners, 20).map(|p| distance(&shape, p));
+        let distance = gaps.fold(f64::INFINITY, f64::min);
         let field = field(&one_face(corners), &[Region { shape, target: Target::Size(size) }], gradation);
         let wanted = field.wants(&element);
         let target_at = |d: f64| size + (gradation - 1.0) * d;
@@ -136,6 +120,19 @@ proptest! {
         if element.longest < target_at((distance - 2.0 * element.longest / 20.0).max(0.0)) - slack {
             prop_assert!(!wanted, "at {distance}");
         }
+    }
+
+    #[test]
+    fn many_regions_are_as_many_fields(
+        corners in points::<4>(1.0), centers in points::<40>(4.0), level: bool, gradation in 1.2..2.0_f64,
+    ) {
+        let mesh = one_face(corners);
+        let target = if level { Target::Level(3) } else { Target::Size(0.4) };
+        let region = |&center: &Point| Region { shape: Shape::Sphere { center, radius: 0.3 }, target };
+        let regions: Vec<Region> = centers.iter().map(region).collect();
+        let element = element(corners);
+        let one_by_one = regions.chunks(1).any(|one| field(&mesh, one, gradation).wants(&element));
+        prop_assert_eq!(field(&mesh, &regions, gradation).wants(&element), one_by_one);
     }
 
     #[test]

@@ -7,7 +7,7 @@ mod overlap;
 mod validation;
 
 use super::{Region, Shape, SizeField, SizeOptions, SizedElement, Target};
-use crate::geometry::Point;
+use crate::geometry::{Point, closest_on_triangle};
 use crate::mesh::{FaceId, NodeId, PolygonMesh};
 
 /// An element of level 0 in input face 0.
@@ -50,4 +50,28 @@ fn field(mesh: &PolygonMesh, regions: &[Region], gradation: f64) -> SizeField {
 fn overlaps(shape: &Shape, element: &SizedElement) -> bool {
     let region = Region { shape: shape.clone(), target: Target::Level(9) };
     field(&one_face(element.corners), &[region], 2.0).wants(element)
+}
+
+/// The distance of `p` from a shape; 0 inside.
+fn distance(shape: &Shape, p: Point) -> f64 {
+    match shape {
+        Shape::Box { min, max, rotation } => {
+            let local = rotation.inverse() * (p - min.midpoint(*max));
+            (local.abs() - (*max - *min) * 0.5).max(Point::ZERO).length()
+        }
+        Shape::Sphere { center, radius } => (p.distance(*center) - radius).max(0.0),
+        Shape::Cylinder { from, to, radius } => {
+            let axis = (*to - *from).normalize();
+            let along = (p - from.midpoint(*to)).dot(axis);
+            let across = (p - from.midpoint(*to) - axis * along).length();
+            (along.abs() - from.distance(*to) * 0.5).max(0.0).hypot((across - radius).max(0.0))
+        }
+        Shape::Points { points, radius } => {
+            (points.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min) - radius).max(0.0)
+        }
+        Shape::Surface { positions, triangles, distance } => {
+            let gap = |t: &[u32; 3]| closest_on_triangle(p, t.map(|n| positions[n as usize])).distance(p);
+            (triangles.iter().map(gap).fold(f64::INFINITY, f64::min) - distance).max(0.0)
+        }
+    }
 }

@@ -3,9 +3,9 @@
 use glam::DQuat;
 use proptest::prelude::*;
 
-use super::{Shape, children, element, overlaps, square};
+use super::{Shape, children, distance, element, overlaps, square};
 use crate::geometry::samples::{of_hull, point, points, rotation};
-use crate::geometry::{Point, closest_on_segment, closest_on_triangle};
+use crate::geometry::{Point, closest_on_segment};
 use crate::sizing::overlap::TOUCH;
 
 fn cuboid(min: [f64; 3], max: [f64; 3]) -> Shape {
@@ -122,30 +122,6 @@ fn what_a_twisted_quad_encloses_overlaps_it() {
     ];
     for shape in in_between {
         assert!(overlaps(&shape, &twisted), "{shape:?}");
-    }
-}
-
-/// The distance of `p` from a shape; 0 inside.
-fn distance(shape: &Shape, p: Point) -> f64 {
-    match shape {
-        Shape::Box { min, max, rotation } => {
-            let local = rotation.inverse() * (p - min.midpoint(*max));
-            (local.abs() - (*max - *min) * 0.5).max(Point::ZERO).length()
-        }
-        Shape::Sphere { center, radius } => (p.distance(*center) - radius).max(0.0),
-        Shape::Cylinder { from, to, radius } => {
-            let axis = (*to - *from).normalize();
-            let along = (p - from.midpoint(*to)).dot(axis);
-            let across = (p - from.midpoint(*to) - axis * along).length();
-            (along.abs() - from.distance(*to) * 0.5).max(0.0).hypot((across - radius).max(0.0))
-        }
-        Shape::Points { points, radius } => {
-            (points.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min) - radius).max(0.0)
-        }
-        Shape::Surface { positions, triangles, distance } => {
-            let gap = |t: &[u32; 3]| closest_on_triangle(p, t.map(|n| positions[n as usize])).distance(p);
-            (triangles.iter().map(gap).fold(f64::INFINITY, f64::min) - distance).max(0.0)
-        }
     }
 }
 

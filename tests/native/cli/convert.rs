@@ -2,7 +2,7 @@
 
 use hexmill::io::obj;
 
-use super::{files, folder_with, succeed};
+use super::{fail, files, folder_with, succeed};
 
 #[test]
 fn obj_to_obj_keeps_everything() {
@@ -11,6 +11,34 @@ fn obj_to_obj_keeps_everything() {
     let [rook, copy] = ["rook.obj", "copy.obj"].map(|file| std::fs::read(folder.path().join(file)).unwrap());
     assert_eq!(obj::read(&rook).unwrap(), obj::read(&copy).unwrap());
     assert_eq!(stdout, format!("copy.obj: 768 nodes, 777 cells, {} bytes\n", copy.len()));
+}
+
+#[test]
+fn every_format_keeps_nodes_and_faces() {
+    let folder = folder_with("quads/bishop.obj");
+    // MEDIT and MSH list faces by their kind, so their order may change.
+    let read = |file: &str| {
+        let bytes = std::fs::read(folder.path().join(file)).unwrap();
+        let mesh = obj::read(&bytes).unwrap().into_surface().unwrap();
+        let mut faces: Vec<_> = mesh.faces().map(<[_]>::to_vec).collect();
+        faces.sort();
+        (mesh.positions, faces)
+    };
+    for extension in ["vtu", "vtk", "msh", "inp", "mesh"] {
+        let file = format!("there.{extension}");
+        succeed(&folder, &["convert", "bishop.obj", "-o", &file]);
+        succeed(&folder, &["convert", &file, "-o", "back.obj"]);
+        assert!(read("back.obj") == read("bishop.obj"), "{extension}");
+    }
+}
+
+#[test]
+fn glb_is_only_written() {
+    let folder = folder_with("quads/helmet.obj");
+    succeed(&folder, &["convert", "helmet.obj", "-o", "helmet.glb"]);
+    assert!(std::fs::read(folder.path().join("helmet.glb")).unwrap().starts_with(b"glTF"));
+    let message = "error[format-not-read]: helmet.glb: GLB files are only written: give the mesh as OBJ or another format";
+    fail(&folder, &["convert", "helmet.glb", "-o", "back.obj"], 1, message);
 }
 
 #[test]

@@ -1,10 +1,25 @@
 //! Ctrl-C.
-#![cfg(unix)]
+#![cfg(target_os = "linux")]
 
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::{files, folder_with};
+
+/// Waits until process `id` has a handler for SIGINT: a busy machine may take its time to start it.
+fn wait_for_handler(id: u32) {
+    const SIGINT: u32 = 2;
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_secs(60) {
+        let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap_or("0").trim();
+        if u64::from_str_radix(caught, 16).unwrap() & 1 << (SIGINT - 1) != 0 {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("the program does not handle SIGINT");
+}
 
 #[test]
 fn an_interrupted_run_leaves_nothing_behind() {
@@ -17,7 +32,8 @@ fn an_interrupted_run_leaves_nothing_behind() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(Duration::from_millis(700));
+    wait_for_handler(run.id());
+    std::thread::sleep(Duration::from_millis(300));
     let sent = Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
     assert!(sent.success());
     let output = run.wait_with_output().unwrap();

@@ -49,7 +49,7 @@ fn fail(folder: &TempDir, args: &[&str], code: i32, message: &str) {
 /// A folder with a copy of the shipped model `name` in it, under its file name.
 fn folder_with(name: &str) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models").join(name);
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name);
     std::fs::copy(&model, folder.path().join(model.file_name().unwrap())).expect("the model ships");
     folder
 }

@@ -51,7 +51,7 @@ fn edge_length_bounds_every_edge() {
 #[test]
 fn the_report_tells_what_is_in_the_output() {
     let folder = folder_with("quads/bishop.obj");
-    let region = "sphere:1.747,-0.6,0.5,0.1:level=3";
+    let region = "sphere:0.96,-1.74,0.05,0.1:level=3";
     let args =
         ["refine", "bishop.obj", "-o", "out.obj", "--region", region, "--report", "r.json", "--threads", "2"];
     succeed(&folder, &args);
@@ -118,6 +118,80 @@ fn the_result_does_not_depend_on_the_threads() {
     let one = run("1");
     assert!(one == run("2"));
     assert!(one == run("4"));
+}
+
+/// The deepest level, and the number of quads, of the torus refined with `args`.
+#[track_caller]
+fn torus(args: &[&str]) -> (u64, u64) {
+    let folder = folder_with("quads/torus_creases0.obj");
+    std::fs::write(folder.path().join("probe.obj"), "v 1.25 -0.35 0.51\n").unwrap();
+    std::fs::write(folder.path().join("wall.obj"), "v 1 -1 -1\nv 1 1 -1\nv 1 1 1\nv 1 -1 1\nf 1 2 3 4\n")
+        .unwrap();
+    let fixed = ["refine", "torus_creases0.obj", "-o", "out.obj", "--report", "r.json"];
+    succeed(&folder, &[&fixed, args].concat());
+    let mesh = &json(&folder, "r.json")["mesh"];
+    assert_eq!(mesh["defects"]["counts"], json!([]));
+    let deepest = mesh["levels"].as_array().unwrap().last().unwrap()["level"].as_u64().unwrap();
+    (deepest, mesh["quads"].as_u64().unwrap())
+}
+
+#[test]
+fn every_kind_of_region_refines_there_and_not_everywhere() {
+    for region in [
+        "box:0.9,-0.5,-0.5,1.5,0.5,0.5:level=3",
+        "box:0.9,-0.1,-0.9,1.5,0.1,0.9,0,45,0:level=3",
+        "box:0.9,-0.1,-0.9,1.5,0.1,0.9,0,0,1,1:level=3",
+        "sphere:1.25,0,0.5,0.3:level=3",
+        "cylinder:1.25,-1,0.5,1.25,1,0.5,0.2:level=3",
+        "points:probe.obj,0.1:level=3",
+        "surface:wall.obj,0.05:level=3",
+    ] {
+        let (deepest, quads) = torus(&["--region", region]);
+        assert_eq!(deepest, 3, "{region}");
+        assert!(quads > 4 * 32 && quads < 64 * 32, "{region}: {quads}");
+    }
+}
+
+#[test]
+fn regions_by_size_reach_it() {
+    // Edges of the torus are up to 1.04 long: three halvings bring them under 0.2.
+    assert_eq!(torus(&["-r", "sphere:1.25,0,0.5,0.3:h=0.2"]).0, 3);
+}
+
+#[test]
+fn levels_can_be_capped_and_what_that_leaves_is_told() {
+    let folder = folder_with("quads/torus_creases0.obj");
+    let args = ["refine", "torus_creases0.obj", "-o", "out.obj", "-e", "0.01", "--max-levels", "2"];
+    let stdout = succeed(&folder, &args);
+    assert!(stdout.contains("512 elements are larger than asked for: raise --max-levels, now 2"), "{stdout}");
+}
+
+#[test]
+fn curvature_refines() {
+    let folder = folder_with("quads/pawn.obj");
+    let stdout = succeed(&folder, &["refine", "pawn.obj", "-o", "out.obj", "--curvature", "5"]);
+    assert!(stdout.contains(" of level 3\n"), "{stdout}");
+}
+
+#[test]
+fn coarse_quads_can_be_kept() {
+    let region = "sphere:1.25,0,0.5,0.2:level=2";
+    let folder = folder_with("quads/torus_creases0.obj");
+    let args = [
+        "refine",
+        "torus_creases0.obj",
+        "-o",
+        "out.obj",
+        "-r",
+        region,
+        "--keep-coarse",
+        "--report",
+        "r.json",
+    ];
+    succeed(&folder, &args);
+    let report = json(&folder, "r.json");
+    assert_eq!(report["options"]["keepCoarse"], true);
+    assert_eq!(report["mesh"]["levels"][0]["level"], 0);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use hexmill::sizing::{Region, Shape, Target};
 use super::judge::{assert_conforming, euler, polygon_faces, quad_faces};
 
 fn models() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/models");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models");
     let quads = fs::read_dir(root.join("quads")).expect("the models").flatten().map(|e| e.path());
     let mut all: Vec<PathBuf> = quads.filter(|p| p.extension().is_some_and(|e| e == "obj")).collect();
     all.push(root.join("solids/spot.obj"));

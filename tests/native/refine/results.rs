@@ -76,7 +76,7 @@ fn quads_know_their_parent_and_its_tags() {
         let center = quad.iter().map(|n| refined.mesh.positions[n.index()]).sum::<Point>() / 4.0;
         let face = center.x.floor() as u32 + 3 * center.y.floor() as u32;
         assert_eq!(refined.parent[q].0, face);
-        let name = if face % 2 == 0 { "even" } else { "odd" };
+        let name = if face.is_multiple_of(2) { "even" } else { "odd" };
         assert_eq!(refined.tags.of(q).unwrap().groups, [name]);
     }
 }

@@ -10,7 +10,7 @@ use hexmill::{
 };
 
 const VIEW: Viewport = Viewport { width: 900.0, height: 700.0 };
-const MODELS: [&str; 4] = ["spot.obj", "car.obj", "rook.obj", "3holes.obj"];
+const MODELS: [&str; 4] = ["solids/spot.obj", "quads/car.obj", "quads/rook.obj", "solids/3holes.obj"];
 
 fn surface(name: &str) -> Surface {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name);
@@ -96,7 +96,7 @@ fn faces_are_picked_where_they_are_drawn() {
 
 #[test]
 fn a_region_is_selected_and_dragged_by_its_handles() {
-    let mut scene = scene("spot.obj", Axis::PlusY, Projection::Orthographic);
+    let mut scene = scene("solids/spot.obj", Axis::PlusY, Projection::Orthographic);
     let middle = scene.surface().unwrap().bounds().center();
     let sphere = Shape::Sphere { center: middle, radius: 0.3 };
     scene.set_regions(vec![sphere], None);
@@ -125,7 +125,7 @@ fn a_region_is_selected_and_dragged_by_its_handles() {
 
 #[test]
 fn zooming_stops_before_the_picture_falls_apart() {
-    let mut scene = scene("bunny.obj", Axis::Iso, Projection::Perspective);
+    let mut scene = scene("solids/bunny.obj", Axis::Iso, Projection::Perspective);
     let anchor = scene.point_under(DVec2::new(450.0, 350.0));
     for factor in [0.5, 2.0] {
         for _ in 0..200 {
@@ -140,7 +140,7 @@ fn zooming_stops_before_the_picture_falls_apart() {
 
 #[test]
 fn the_overlay_follows_the_selection() {
-    let mut scene = scene("rook.obj", Axis::Iso, Projection::Perspective);
+    let mut scene = scene("quads/rook.obj", Axis::Iso, Projection::Perspective);
     let triad = scene.front_buffers();
     assert_eq!((triad.lines.len(), triad.discs.len()), (3 + 2 + 3 + 3, 0), "arms and letters");
     let bounds = *scene.surface().unwrap().bounds();

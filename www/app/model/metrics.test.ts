@@ -25,7 +25,7 @@ test('the bad end of every measure has the same colour', () => {
   expect(mapColour('quality', qualityPlace(metricInfo('scaledJacobian'), -1))).toBe('rgb(140 10 40)');
   expect(mapColour('quality', qualityPlace(metricInfo('maxAngle'), 180))).toBe('rgb(140 10 40)');
   expect(mapColour('quality', qualityPlace(metricInfo('aspect'), 1))).toBe('rgb(74 144 200)');
-  expect(mapColour('levels', 0.5)).toBe('rgb(87 91 180)');
+  expect(mapColour('levels', 0.5)).toBe('rgb(131 114 209)');
 });
 
 test('histograms count every value, over a range that holds the usual ones', () => {

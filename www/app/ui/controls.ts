@@ -43,13 +43,13 @@ export function numberField(field: NumberField): TemplateResult {
     if (outOfRange(field, next) === null) commit(input, next);
   };
   return html`<label class="field ${field.inline ? 'inline' : ''}">
-    <span class=${field.inline ? 'prefix' : 'label'} aria-hidden=${field.inline ? 'true' : nothing}>${field.inline ?? field.label}</span>
+    <span class=${field.inline ? 'prefix' : 'label'} aria-hidden="true">${field.inline ?? field.label}</span>
     <span class="entry">
-      <input type="text" inputmode="decimal" autocomplete="off" spellcheck="false" aria-label=${field.inline ? field.label : nothing}
+      <input type="text" inputmode="decimal" autocomplete="off" spellcheck="false" aria-label=${field.unit ? `${field.label}, ${field.unit}` : field.label}
         .value=${live(editable(field.value))} ?disabled=${field.disabled ?? false} @keydown=${key}
         @change=${(event: Event) => commit(event.target as HTMLInputElement, parseNumber((event.target as HTMLInputElement).value))}
         @blur=${(event: Event) => restore(event.target as HTMLInputElement, field.value)} />
-      ${field.unit ? html`<span class="unit">${field.unit}</span>` : nothing}
+      ${field.unit ? html`<span class="unit" aria-hidden="true">${field.unit}</span>` : nothing}
     </span>
     <span class="fault" role="alert"></span>
   </label>`;

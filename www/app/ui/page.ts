@@ -22,7 +22,13 @@ declare global {
 /** The addresses of the examples, by file name. */
 const EXAMPLE_URLS = Object.fromEntries(
   Object.entries(
-    import.meta.glob<string>('../../../examples/models/*.obj', { query: '?url', import: 'default', eager: true }),
+    import.meta.glob<string>(
+      [
+        '../../../examples/models/quads/{bishop,car,helmet,pawn,rook}.obj',
+        '../../../examples/models/solids/{3holes,bunny,spot}.obj',
+      ],
+      { query: '?url', import: 'default', eager: true },
+    ),
   ).map(([path, url]) => [path.slice(path.lastIndexOf('/') + 1), url]),
 );
 

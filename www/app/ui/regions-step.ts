@@ -60,7 +60,7 @@ function editor({ workbench }: Page, { id, shape, target }: Region): TemplateRes
     )}
     ${target.by === 'size'
       ? numberField({ label: 'Inside, no edge longer than', value: target.size, min: 0, open: true, unit: 'model units', change: (size) => workbench.editRegion(id, { target: { by: 'size', size } }) })
-      : numberField({ label: 'Inside, refine the input', value: target.level, ...LIMITS.levels, whole: true, step: 1, unit: target.level === 1 ? 'time' : 'times', change: (level) => workbench.editRegion(id, { target: { by: 'level', level } }) })}
+      : numberField({ label: 'Inside, refine the input this many times', value: target.level, ...LIMITS.levels, whole: true, step: 1, change: (level) => workbench.editRegion(id, { target: { by: 'level', level } }) })}
   </div>`;
 }
 

@@ -49,7 +49,7 @@ function levels({ workbench }: Page): TemplateResult {
   const { levels: value } = workbench.settings.value;
   const change = (levels: number): void => workbench.edit({ levels });
   return html`
-    ${numberField({ label: 'Refine everything', value, ...LIMITS.levels, whole: true, step: 1, unit: value === 1 ? 'time' : 'times', change })}
+    ${numberField({ label: 'Refine everything this many times', value, ...LIMITS.levels, whole: true, step: 1, change })}
     ${slider({ label: 'Levels', value: Math.min(value, 6), min: 0, max: 6, step: 1, text: (v) => counted(v, 'level'), change })}
     <p class="hint">Each level splits a quad into four; the first turns any face into quads.</p>`;
 }

@@ -7,6 +7,9 @@ import { complaint } from '../model/complaint.js';
 import { colouring } from '../model/colouring.js';
 import type { Page } from './page.js';
 
+/** CSS pixels at the lower end that the toolbar covers. */
+const TOOLBAR = 64;
+
 export type Axis = '+x' | '-x' | '+y' | '-y' | '+z' | '-z' | 'iso';
 
 export class Viewport {
@@ -156,7 +159,7 @@ export class Viewport {
         projection: this.projection.value,
         background: this.#page.theme.scheme.value,
         up: this.up.value,
-        covered: this.covered.value,
+        covered: [this.covered.value, TOOLBAR],
       }),
     );
   }

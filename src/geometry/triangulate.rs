@@ -19,7 +19,7 @@ pub fn triangulate(points: &[DVec3], out: &mut Vec<[u32; 3]>) {
 }
 
 /// The polygon's area vector (Newell): its length is the area of a planar polygon.
-pub(super) fn area_vector(points: &[DVec3]) -> DVec3 {
+pub fn area_vector(points: &[DVec3]) -> DVec3 {
     let Some(&first) = points.first() else { return DVec3::ZERO };
     points.windows(2).map(|w| (w[0] - first).cross(w[1] - first)).sum::<DVec3>() * 0.5
 }
