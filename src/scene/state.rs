@@ -237,11 +237,16 @@ impl Scene {
         regions.fold(surface, |all, b| Aabb { min: all.min.min(b.min), max: all.max.max(b.max) })
     }
 
-    /// The first face under a pixel. The first call on a surface sorts its faces.
+    /// The first face under a pixel.
     pub fn pick(&self, pixel: DVec2) -> Option<Hit> {
-        let surface = self.surface.as_ref()?;
-        let tree = self.tree.get_or_init(|| Bvh::new(surface));
+        let (surface, tree) = self.prepare_picking()?;
         tree.first_hit(surface, &self.camera.ray(pixel, self.viewport))
+    }
+
+    /// Sorts the surface's faces for picking, unless that is done. The first pick does so by itself.
+    pub fn prepare_picking(&self) -> Option<(&Surface, &Bvh)> {
+        let surface = self.surface.as_ref()?;
+        Some((surface, self.tree.get_or_init(|| Bvh::new(surface))))
     }
 
     /// The point under a pixel: on the surface, or else at the depth of what the camera looks at.

@@ -79,12 +79,14 @@ impl Viewer {
     #[wasm_bindgen(js_name = setMesh)]
     pub fn set_mesh(
         &mut self,
-        nodes: &[f64],
+        nodes: Vec<f64>,
         offsets: Option<Vec<u32>>,
         corners: Vec<u32>,
         keep_camera: bool,
     ) -> Result<(), JsError> {
-        let surface = Surface::new(nodes, offsets, corners).map_err(error)?;
+        let surface = Surface::new(&nodes, offsets, corners).map_err(error)?;
+        // Before the upload, which needs room of its own.
+        drop(nodes);
         self.clear_mesh()?;
         self.renderer.set_surface(Some(&surface)).map_err(error)?;
         self.scene.set_surface(Some(surface));
@@ -156,6 +158,12 @@ impl Viewer {
     /// Draws a frame.
     pub fn draw(&mut self) -> Result<(), JsError> {
         self.renderer.draw(&self.scene).map_err(error)
+    }
+
+    /// Prepares for picking, which the first pick on a surface would otherwise have to wait for.
+    #[wasm_bindgen(js_name = preparePicking)]
+    pub fn prepare_picking(&self) {
+        self.scene.prepare_picking();
     }
 
     /// The first face under a pixel.

@@ -85,6 +85,8 @@ export class ViewError extends Error {
 
 /** Milliseconds that the camera takes to fly somewhere. */
 const FLIGHT_MS = 280;
+/** Milliseconds after which a new mesh is prepared for picking. */
+const PREPARATION_MS = 400;
 const DEFAULT_STYLE: Style = {
   edges: true,
   edgeWidth: 1,
@@ -153,6 +155,7 @@ class CanvasView implements View {
 
   #frame = 0;
   #frameMs = 0;
+  #preparation: ReturnType<typeof setTimeout> | undefined;
   #flightStart: number | null = null;
 
   #regionDrag: (index: number, region: ViewRegion, phase: DragPhase) => void = () => {};
@@ -193,6 +196,9 @@ class CanvasView implements View {
       if (mesh) viewer.setMesh(mesh.nodes, mesh.offsets ?? undefined, mesh.corners, keepCamera);
       else viewer.clearMesh();
     });
+    // Once the mesh is seen and the page has nothing else to do.
+    clearTimeout(this.#preparation);
+    this.#preparation = setTimeout(() => this.#viewer?.preparePicking(), PREPARATION_MS);
   }
 
   setColouring(colouring: Colouring): void {
@@ -272,6 +278,7 @@ class CanvasView implements View {
     this.#disposal.abort();
     this.#observer.disconnect();
     cancelAnimationFrame(this.#frame);
+    clearTimeout(this.#preparation);
     this.#viewer?.free();
     this.#viewer = null;
   }
