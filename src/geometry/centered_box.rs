@@ -1,6 +1,6 @@
 //! Boxes about the origin, along the axes: any box in its own frame.
 
-use super::{Convex, Point, QuadHull};
+use super::{Convex, Point, QuadHull, Solid};
 
 /// The box from `-half` to `half`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,17 +9,14 @@ pub struct CenteredBox {
     pub half: Point,
 }
 
-impl CenteredBox {
-    /// True if `p` is in the box or on its boundary.
-    pub fn holds(&self, p: Point) -> bool {
+impl Solid for CenteredBox {
+    fn holds(&self, p: Point) -> bool {
         p.abs().cmple(self.half).all()
     }
 
-    /// True if the two share a point.
-    ///
     /// Two convex polyhedra are apart if and only if one of these axes separates them: a normal of the one, a
     /// normal of the other, or a cross product of an edge of each (Gottschalk, Lin, Manocha 1996).
-    pub fn meets(&self, hull: &QuadHull) -> bool {
+    fn meets(&self, hull: &QuadHull) -> bool {
         let apart = |axis: Point| {
             let [a, b, c, d] = hull.corners.map(|p| p.dot(axis));
             let reach = self.half.dot(axis.abs());
@@ -32,6 +29,10 @@ impl CenteredBox {
         !(faces.into_iter().any(apart)
             || hull.normals().any(apart)
             || hull.edges().flat_map(edges).any(apart))
+    }
+
+    fn grown(&self, by: f64) -> Self {
+        Self { half: self.half + Point::splat(by) }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Convex, Point, QuadHull, closest_on_segment};
+use super::{Convex, Point, QuadHull, Solid, closest_on_segment};
 
 /// The points with `x² + y² <= radius²` and `|z| <= half_length`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,20 +16,23 @@ pub struct CenteredCylinder {
 /// A triangle cut by two parallel planes has at most five corners.
 const MOST_CORNERS: usize = 5;
 
-impl CenteredCylinder {
-    /// True if `p` is in the cylinder or on its boundary.
-    pub fn holds(&self, p: Point) -> bool {
+impl Solid for CenteredCylinder {
+    fn holds(&self, p: Point) -> bool {
         p.z.abs() <= self.half_length && p.truncate().length_squared() <= self.radius * self.radius
     }
 
-    /// True if the two share a point.
-    ///
     /// The part of a triangle between the planes of the caps is a convex polygon. It meets the cylinder if and only
     /// if its projection along the axis comes as near to the origin as the radius.
-    pub fn meets(&self, hull: &QuadHull) -> bool {
+    fn meets(&self, hull: &QuadHull) -> bool {
         hull.triangles().any(|t| self.meets_triangle(t)) || hull.holds(Point::ZERO)
     }
 
+    fn grown(&self, by: f64) -> Self {
+        Self { radius: self.radius + by, half_length: self.half_length + by }
+    }
+}
+
+impl CenteredCylinder {
     fn meets_triangle(&self, triangle: [Point; 3]) -> bool {
         let mut polygon = Polygon::of(triangle);
         polygon.cut(|p| self.half_length - p.z);
@@ -137,9 +140,8 @@ mod tests {
                 let (hull, body) = (QuadHull::new(corners), CenteredCylinder { radius, half_length });
                 let meets = body.meets(&hull);
                 prop_assert!(meets || !of_hull(corners, 16).any(|s| body.holds(s)));
-                let grown = CenteredCylinder { radius: radius + 1e-6, half_length: half_length + 1e-6 };
-                prop_assert!(!meets || hull_within(&hull.corners, &body, 1e-6));
-                prop_assert!(grown.meets(&hull) || !hull_within(&hull.corners, &body, 1e-9));
+                                prop_assert!(!meets || hull_within(&hull.corners, &body, 1e-6));
+                prop_assert!(body.grown(1e-6).meets(&hull) || !hull_within(&hull.corners, &body, 1e-9));
             }
         }
     }

@@ -9,6 +9,7 @@ mod frame;
 mod gjk;
 mod nearest_triangle;
 mod quad_hull;
+mod solid;
 mod triangulate;
 
 pub use aabb::Aabb;
@@ -20,6 +21,7 @@ pub use frame::Frame;
 pub use gjk::{Convex, hull_within};
 pub use nearest_triangle::NearestTriangle;
 pub use quad_hull::QuadHull;
+pub use solid::Solid;
 pub use triangulate::{area_vector, triangulate};
 
 /// A point or vector in space, f64.

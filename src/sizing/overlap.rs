@@ -20,7 +20,7 @@ use glam::DQuat;
 
 use super::{Shape, SizedElement};
 use crate::geometry::{
-    Aabb, BoxIndex, CenteredBox, CenteredCylinder, Convex, Frame, Point, QuadHull, closest_on_triangle,
+    Aabb, BoxIndex, CenteredBox, CenteredCylinder, Frame, Point, QuadHull, Solid, closest_on_triangle,
     hull_within,
 };
 
@@ -150,24 +150,13 @@ impl Prepared {
         let (least, coincident) = (element.least_extent(), element.coincident());
         match self {
             Self::Box { frame, half } => {
-                let half = half.max(Point::splat(least)) + Point::splat(coincident);
-                let body = CenteredBox { half };
-                let middle = frame.local(element.middle);
-                let meets = |hull: &QuadHull| body.meets(hull);
-                body.holds(middle)
-                    || CenteredBox { half: half + Point::splat(reach + element.radius) }.holds(middle)
-                        && is_met_or_near(frame, element, &body, meets, reach)
+                let body = CenteredBox { half: half.max(Point::splat(least)) };
+                solid_is_met(&body.grown(coincident), frame, element, reach)
             }
             Self::Cylinder { frame, radius, half_length } => {
-                let radius = radius.max(least) + coincident;
-                let half_length = half_length.max(least) + coincident;
-                let body = CenteredCylinder { radius, half_length };
-                let middle = frame.local(element.middle);
-                let far = reach + element.radius;
-                let meets = |hull: &QuadHull| body.meets(hull);
-                body.holds(middle)
-                    || CenteredCylinder { radius: radius + far, half_length: half_length + far }.holds(middle)
-                        && is_met_or_near(frame, element, &body, meets, reach)
+                let body =
+                    CenteredCylinder { radius: radius.max(least), half_length: half_length.max(least) };
+                solid_is_met(&body.grown(coincident), frame, element, reach)
             }
             Self::Ball { center, radius } => {
                 is_near(element, *center, radius.max(least) + coincident + reach)
@@ -217,16 +206,18 @@ fn some_is_near(
     })
 }
 
-/// Asks exactly, in the shape's frame.
-fn is_met_or_near(
-    frame: &Frame,
-    element: &Probe,
-    body: &impl Convex,
-    meets: impl Fn(&QuadHull) -> bool,
-    reach: f64,
-) -> bool {
+/// True if the shrunk element comes as near to a solid in `frame` as `reach`: told by its middle and its circle if
+/// they can.
+fn solid_is_met(solid: &impl Solid, frame: &Frame, element: &Probe, reach: f64) -> bool {
+    let middle = frame.local(element.middle);
+    if solid.holds(middle) {
+        return true;
+    }
+    if !solid.grown(reach + element.radius).holds(middle) {
+        return false;
+    }
     let hull = element.shrunk().map(|p| frame.local(p));
-    if reach > 0.0 { hull_within(&hull.corners, body, reach) } else { meets(&hull) }
+    if reach > 0.0 { hull_within(&hull.corners, solid, reach) } else { solid.meets(&hull) }
 }
 
 /// True if the shrunk element comes as near to `p` as `distance`: told by its middle or its circle if they can.
