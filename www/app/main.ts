@@ -39,6 +39,9 @@ const PARTS: Readonly<Record<string, (page: Page) => unknown>> = {
   veil,
 };
 
+/** CSS pixels of toolbar and legend with the space around them. */
+const TOOLBAR = 84;
+
 function part(id: string): HTMLElement {
   const found = document.getElementById(id);
   if (!found) throw new Error(`the page has no element #${id}`);
@@ -54,7 +57,7 @@ function reflect(page: Page): void {
   dataset['inspector'] = page.inspectorFolded.value ? 'folded' : 'open';
 }
 
-/** How far the columns reach over the view. On a phone they lie below it. */
+/** How far the columns and the toolbar reach over the view. On a phone the columns lie below it. */
 function measure(page: Page): void {
   const view = part('view').getBoundingClientRect();
   const reach = [...document.querySelectorAll('.steps, .inspector')].map((column) => {
@@ -62,7 +65,9 @@ function measure(page: Page): void {
     if (width === 0 || top >= view.bottom) return 0;
     return left - view.left < view.right - right ? right - view.left : view.right - left;
   });
-  page.viewport.covered.value = Math.max(0, ...reach);
+  const { height } = part('below').getBoundingClientRect();
+  const covered: [number, number] = [Math.max(0, ...reach), height === 0 ? 0 : TOOLBAR];
+  if (String(covered) !== String(page.viewport.covered.value)) page.viewport.covered.value = covered;
 }
 
 render(frame, part('app'));

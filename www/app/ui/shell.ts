@@ -21,7 +21,7 @@ export const frame = html`
     <div class="middle">
       <div id="unfold"></div>
       <div class="centre" id="centre"></div>
-      <div class="below"><div id="legend"></div><div id="toolbar"></div></div>
+      <div class="below" id="below"><div id="legend"></div><div id="toolbar"></div></div>
     </div>
     <aside class="inspector" id="inspector" aria-label="Inspector">
       <header id="inspector-head"></header>

@@ -5,6 +5,7 @@ import type { TemplateResult } from 'lit-html';
 import { iconButton, segmented } from './controls.js';
 import type { Page } from './page.js';
 import { deepest, mapColour, mapGradient } from '../model/colouring.js';
+import { levelCounts } from '../model/metrics.js';
 import { fixed } from '../model/text.js';
 import type { Axis } from './viewport.js';
 
@@ -45,7 +46,7 @@ export function legend({ workbench, inspection, viewport }: Page): TemplateResul
   const colour = inspection.colour.value;
   if (!mesh || workbench.shows.value !== 'mesh' || colour === 'plain' || !viewport.ready.value) return nothing;
   if (colour === 'level') {
-    const levels = Array.from({ length: deepest(mesh) + 1 }, (_, level) => level);
+    const levels = levelCounts(mesh.level).flatMap((cells, level) => (cells > 0 ? [level] : []));
     return html`<div class="legend" aria-label="Colours by level"><span>Level</span>
       ${levels.map((level) => html`<span class="chip"><i style="background:${mapColour('levels', level / deepest(mesh))}"></i>${level}</span>`)}
     </div>`;

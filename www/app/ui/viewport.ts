@@ -7,17 +7,14 @@ import { complaint } from '../model/complaint.js';
 import { colouring } from '../model/colouring.js';
 import type { Page } from './page.js';
 
-/** CSS pixels at the lower end that the toolbar covers. */
-const TOOLBAR = 64;
-
 export type Axis = '+x' | '-x' | '+y' | '-y' | '+z' | '-z' | 'iso';
 
 export class Viewport {
   readonly edges = signal(true);
   readonly projection = signal<'perspective' | 'orthographic'>('perspective');
   readonly up = signal<'y' | 'z'>('z');
-  /** CSS pixels at either side of the canvas that the columns cover. */
-  readonly covered = signal(0);
+  /** CSS pixels at either side of the canvas that the columns cover, and at either end that the toolbar does. */
+  readonly covered = signal<[number, number]>([0, 0]);
   /** Why there is no picture, in plain words. */
   readonly trouble = signal<string | null>(null);
   readonly ready = signal(false);
@@ -159,7 +156,7 @@ export class Viewport {
         projection: this.projection.value,
         background: this.#page.theme.scheme.value,
         up: this.up.value,
-        covered: [this.covered.value, TOOLBAR],
+        covered: this.covered.value,
       }),
     );
   }
