@@ -77,9 +77,9 @@ impl From<RefineError> for Failure {
     fn from(error: RefineError) -> Self {
         let kind = match error {
             RefineError::Cancelled(_) => Kind::Cancelled,
-            RefineError::NoFaces | RefineError::InvalidInput(_) => Kind::Input,
+            RefineError::NoFaces | RefineError::InvalidInput(_) | RefineError::Extent { .. } => Kind::Input,
             RefineError::Base(_) | RefineError::Option { .. } | RefineError::Sizing(_) => Kind::Options,
-            RefineError::TooManyQuads { .. } => Kind::Limit,
+            RefineError::TooManyQuads { .. } | RefineError::TooFewDigits { .. } => Kind::Limit,
         };
         Self::new(kind, error.code(), &error)
     }
