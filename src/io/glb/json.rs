@@ -15,8 +15,7 @@ const TRIANGLES: u32 = 4;
 const LINES: u32 = 1;
 
 /// Turns the Z axis of the mesh up, which in glTF is the Y axis: a quarter turn about X, x y z w.
-const Z_UP: [f64; 4] =
-    [-std::f64::consts::FRAC_1_SQRT_2, 0.0, 0.0, std::f64::consts::FRAC_1_SQRT_2];
+const Z_UP: [f64; 4] = [-std::f64::consts::FRAC_1_SQRT_2, 0.0, 0.0, std::f64::consts::FRAC_1_SQRT_2];
 
 /// Linear colours of the tag sets, in turn: the untagged grey first.
 const COLOURS: [[f64; 3]; 8] = [

@@ -28,7 +28,11 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
 pub fn write_with(document: &Document, options: GlbOptions) -> Result<Vec<u8>, WriteError> {
     let view = CellView::new(document, Format::Glb)?;
     if view.cells.len() == 0 {
-        return Err(refuse_writing(Format::Glb, code::NO_CELLS, "the mesh has no faces; there is nothing to show"));
+        return Err(refuse_writing(
+            Format::Glb,
+            code::NO_CELLS,
+            "the mesh has no faces; there is nothing to show",
+        ));
     }
     let shape = Shape::of(&view, options.edges);
     if shape.positions.as_flattened().iter().any(|coordinate| !coordinate.is_finite()) {
@@ -55,7 +59,9 @@ fn assemble(mut json: Vec<u8>, data: &[u8]) -> Result<Vec<u8>, WriteError> {
     json.resize(json.len().next_multiple_of(4), b' ');
     let total = 12 + 8 + json.len() + 8 + data.len();
     let Ok(total) = u32::try_from(total) else {
-        let message = format!("the file would take {total} bytes, more than the 4 GiB of the format; show a coarser mesh");
+        let message = format!(
+            "the file would take {total} bytes, more than the 4 GiB of the format; show a coarser mesh"
+        );
         return Err(refuse_writing(Format::Glb, code::TOO_LARGE, message));
     };
     let mut file = Vec::with_capacity(total as usize);

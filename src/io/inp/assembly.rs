@@ -165,9 +165,8 @@ impl Model {
             placed.extend((1..self.parts.len()).map(whole));
         }
         let named = self.instances.iter().enumerate();
-        placed.extend(
-            named.map(|(index, i)| (Some(index), Instance { part: i.part, placement: i.placement })),
-        );
+        placed
+            .extend(named.map(|(index, i)| (Some(index), Instance { part: i.part, placement: i.placement })));
         placed
     }
 }

@@ -95,9 +95,9 @@ impl Keyword {
 
     /// The value of a parameter that must be there.
     pub fn require(&self, name: &str) -> Result<&str, ReadError> {
-        self.get(name).filter(|value| !value.is_empty()).ok_or_else(|| {
-            self.refuse(code::SYNTAX, format!("*{} lacks its parameter {name}", self.name))
-        })
+        self.get(name)
+            .filter(|value| !value.is_empty())
+            .ok_or_else(|| self.refuse(code::SYNTAX, format!("*{} lacks its parameter {name}", self.name)))
     }
 
     /// An error at the keyword's line.

@@ -171,7 +171,8 @@ impl Part {
         self.remove_repeated(set);
         self.member_count += self.sets[set].members.len().saturating_sub(before);
         if self.member_count > self.member_limit {
-            let message = "the element sets have more members than a file of this size should name".to_owned();
+            let message =
+                "the element sets have more members than a file of this size should name".to_owned();
             return Err(keyword.refuse(code::TOO_LARGE, message));
         }
         Ok(())
@@ -211,8 +212,10 @@ impl Part {
 
     /// Adds the elements with the numbers first, first + step, ... last, as far as there are such.
     fn generate(&mut self, set: usize, line: Line<'_>) -> Result<(), ReadError> {
-        let numbers: Vec<i64> =
-            line.fields().map(|field| line.integer(field, "first, last or step")).collect::<Result<_, _>>()?;
+        let numbers: Vec<i64> = line
+            .fields()
+            .map(|field| line.integer(field, "first, last or step"))
+            .collect::<Result<_, _>>()?;
         let (first, last, step) = match numbers[..] {
             [first, last] => (first, last, 1),
             [first, last, step] if step > 0 => (first, last, step),

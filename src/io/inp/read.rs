@@ -28,7 +28,8 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
 fn read_keyword(keyword: &Keyword, lines: &mut Lines<'_>, model: &mut Model) -> Result<bool, ReadError> {
     match keyword.name.as_str() {
         "NODE" | "ELEMENT" | "ELSET" if keyword.get("INPUT").is_some() => {
-            let message = format!("*{} reads another file — put that file's lines in its place", keyword.name);
+            let message =
+                format!("*{} reads another file — put that file's lines in its place", keyword.name);
             return Err(keyword.refuse(code::UNSUPPORTED_FEATURE, message));
         }
         "NODE" => model.current(keyword)?.read_nodes(keyword, lines)?,
@@ -48,8 +49,9 @@ fn read_keyword(keyword: &Keyword, lines: &mut Lines<'_>, model: &mut Model) -> 
         }
         "END INSTANCE" => model.end_instance(),
         name if MAKERS.contains(&name) => {
-            let message =
-                format!("*{name} is not read — write the nodes and elements that it makes as *NODE and *ELEMENT");
+            let message = format!(
+                "*{name} is not read — write the nodes and elements that it makes as *NODE and *ELEMENT"
+            );
             return Err(keyword.refuse(code::UNSUPPORTED_FEATURE, message));
         }
         _ => return Ok(false),

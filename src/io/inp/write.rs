@@ -31,7 +31,8 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
         }
         line.word("\n");
     });
-    let kinds: &[(usize, &str)] = if view.cells.are_hexes() { &[(8, "C3D8")] } else { &[(4, "S4"), (3, "S3")] };
+    let kinds: &[(usize, &str)] =
+        if view.cells.are_hexes() { &[(8, "C3D8")] } else { &[(4, "S4"), (3, "S3")] };
     for &(size, kind) in kinds {
         write_elements(&mut file, &view, size, kind);
     }

@@ -63,7 +63,8 @@ struct MeditFile<'a> {
 impl<'a> MeditFile<'a> {
     fn open(bytes: &'a [u8]) -> Result<Self, ReadError> {
         if bytes.starts_with(&[1, 0, 0, 0]) || bytes.starts_with(&[0, 0, 0, 1]) {
-            let message = "this is a binary MEDIT file (.meshb), which is not read — save it as ASCII (.mesh)";
+            let message =
+                "this is a binary MEDIT file (.meshb), which is not read — save it as ASCII (.mesh)";
             return Err(refuse(Format::Medit, None, code::UNSUPPORTED_ENCODING, message));
         }
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);

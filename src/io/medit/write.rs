@@ -63,11 +63,8 @@ fn write_cells(file: &mut Text, view: &CellView<'_>, references: &[i32], section
 
 /// Polylines and creases as edges, of which the creases are ridges.
 fn write_features(file: &mut Text, features: &Features, node_count: usize) -> Result<(), WriteError> {
-    let mut edges: Vec<[NodeId; 2]> = features
-        .polylines
-        .iter()
-        .flat_map(|line| line.windows(2).map(|pair| [pair[0], pair[1]]))
-        .collect();
+    let mut edges: Vec<[NodeId; 2]> =
+        features.polylines.iter().flat_map(|line| line.windows(2).map(|pair| [pair[0], pair[1]])).collect();
     let undirected = |[a, b]: [NodeId; 2]| [a.min(b), a.max(b)];
     let mut place: HashMap<[NodeId; 2], usize> = HashMap::new();
     for (index, &edge) in edges.iter().enumerate() {
