@@ -1,5 +1,11 @@
 //! The mesh formats beside OBJ: what is written reads back, what others wrote is read, and what is
 //! wrong is told.
 
-mod vtu;
+mod allocation;
+mod broken;
+mod foreign;
+mod glb;
+mod golden;
+mod mutations;
+mod round_trip;
 mod worlds;

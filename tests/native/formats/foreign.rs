@@ -1,0 +1,98 @@
+//! Files that VTK, meshio and Gmsh wrote (`tests/fixtures/make_fixtures.py`).
+
+use hexmill::geometry::Point;
+use hexmill::io::{AnyMesh, Format};
+use hexmill::mesh::NodeId;
+
+use super::round_trip::read;
+
+macro_rules! fixtures {
+    ($($name:literal)*) => { [$(($name, include_bytes!(concat!("../../fixtures/", $name)).as_slice())),*] };
+}
+
+/// Every fixture by its name.
+pub fn all() -> impl Iterator<Item = (&'static str, &'static [u8], Format)> {
+    let files = fixtures![
+        "vtk_ascii.vtu" "vtk_binary.vtu" "vtk_binary_zlib.vtu" "vtk_binary_big.vtu" "vtk_appended_raw.vtu"
+        "vtk_appended_raw_zlib.vtu" "vtk_appended_base64.vtu" "vtk_appended_base64_zlib_big.vtu"
+        "meshio_ascii.vtu" "meshio_binary.vtu" "meshio_uncompressed.vtu" "vtk_lz4.vtu" "vtk_lzma.vtu"
+        "vtk_42_ascii.vtk" "vtk_42_binary.vtk" "vtk_42_polydata.vtk" "vtk_51_ascii.vtk" "vtk_51_binary.vtk"
+        "vtk_51_polydata_binary.vtk" "meshio_42_binary.vtk" "meshio_51_ascii.vtk" "gmsh_surface.vtk"
+        "gmsh_solid.vtk"
+        "gmsh_surface_22_ascii.msh" "gmsh_surface_22_binary.msh" "gmsh_surface_41_ascii.msh"
+        "gmsh_surface_41_binary.msh" "gmsh_solid_22_ascii.msh" "gmsh_solid_22_binary.msh"
+        "gmsh_solid_41_ascii.msh" "gmsh_solid_41_binary.msh" "meshio_solid_41_binary.msh"
+        "gmsh_surface.inp" "gmsh_solid.inp" "meshio_surface.inp" "meshio_solid.inp"
+        "meshio_surface.mesh" "meshio_solid.mesh"
+    ];
+    files.into_iter().map(|(name, bytes)| {
+        let extension = name.rsplit('.').next().unwrap();
+        (name, bytes, Format::from_extension(extension).unwrap())
+    })
+}
+
+/// What the tags of a fixture say: the number, the name, or nothing where the writer had no place for it.
+fn tag_of(name: &str, wanted: i32) -> (Option<i32>, Option<&'static str>) {
+    let label = |one, two| if wanted == 1 { one } else { two };
+    match name {
+        _ if name.ends_with(".msh") && name.starts_with("gmsh") => {
+            (Some(wanted), Some(label("one", "the other")))
+        }
+        _ if name.ends_with(".inp") && name.starts_with("gmsh") => (None, Some(label("one", "the_other"))),
+        _ if name.ends_with(".inp") || name == "meshio_solid_41_binary.msh" => (None, None),
+        _ => (Some(wanted), None),
+    }
+}
+
+fn surface_points() -> Vec<Point> {
+    let node = |k: u32| (f64::from(k % 3), f64::from(k / 3));
+    (0..9).map(node).map(|(x, y)| Point::new(x / 2.0, y / 4.0, x * y / 8.0)).collect()
+}
+
+fn solid_points() -> Vec<Point> {
+    let node = |k: u32| (f64::from(k % 3), f64::from(k / 3 % 2), f64::from(k / 6));
+    (0..12).map(node).map(|(x, y, z)| Point::new(x, y / 2.0, z / 4.0)).collect()
+}
+
+const SURFACE: [(&[u32], i32); 5] =
+    [(&[0, 1, 4, 3], 1), (&[1, 2, 5, 4], 1), (&[3, 4, 7, 6], 2), (&[4, 5, 8], 2), (&[4, 8, 7], 2)];
+const SOLID: [(&[u32], i32); 2] = [(&[0, 1, 4, 3, 6, 7, 10, 9], 1), (&[1, 2, 5, 4, 7, 8, 11, 10], 2)];
+
+#[test]
+fn every_fixture_holds_its_mesh() {
+    for (name, bytes, format) in all().filter(|(name, ..)| !name.contains("_lz")) {
+        let document = read(bytes, format).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let (points, cells, wanted): (_, Vec<Vec<NodeId>>, &[(&[u32], i32)]) = match &document.mesh {
+            AnyMesh::Hexes(mesh) => {
+                (&mesh.positions, mesh.hexes.iter().map(|h| h.to_vec()).collect(), &SOLID)
+            }
+            AnyMesh::Polygons(mesh) => (&mesh.positions, mesh.faces().map(<[_]>::to_vec).collect(), &SURFACE),
+            AnyMesh::Quads(_) => panic!("{name}: readers make polygons"),
+        };
+        let expected = if wanted.len() == 2 { solid_points() } else { surface_points() };
+        assert_eq!(*points, expected, "{name}");
+        assert_eq!(cells.len(), wanted.len(), "{name}");
+        for (nodes, tag) in wanted {
+            // Gmsh numbers the elements of a version 2 file anew, so the order may be another.
+            let nodes: Vec<NodeId> = nodes.iter().map(|&node| NodeId(node)).collect();
+            let place = cells.iter().position(|cell| *cell == nodes);
+            let place = place.unwrap_or_else(|| panic!("{name} lacks {nodes:?}"));
+            let set = document.tags.of(place).cloned().unwrap_or_default();
+            let (number, label) = tag_of(name, *tag);
+            assert_eq!(set.number, number, "{name}");
+            assert!(
+                label.is_none_or(|label| set.groups.iter().any(|group| group == label)),
+                "{name}: {set:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn compressions_that_are_not_read_are_told() {
+    for (name, bytes, format) in all().filter(|(name, ..)| name.contains("_lz")) {
+        let error = read(bytes, format).unwrap_err();
+        assert_eq!(error.code, "unsupported-encoding", "{name}");
+        assert!(error.to_string().starts_with("line 2: the data are compressed by vtkLZ"), "{error}");
+    }
+}
