@@ -66,10 +66,10 @@ impl<'a> MshFile<'a> {
         };
         let kind = tokens.integer("the file type")?;
         let size = tokens.integer("the data size")?;
-        tokens.rest_of_line();
         let encoding = match (kind, size) {
             (0, _) => Encoding::Ascii,
             (1, 4 | 8) => {
+                tokens.rest_of_line();
                 let one = tokens.take(4, "the byte order")?;
                 let order = match one {
                     [1, 0, 0, 0] => ByteOrder::Little,

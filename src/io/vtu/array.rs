@@ -78,8 +78,7 @@ impl<'a> Decoder<'a> {
     }
 
     fn decode_words(&self, array: &DataArray<'_>, scalar: Scalar) -> Result<Column, ReadError> {
-        let line = line_at(self.bytes, array.text.as_ptr() as usize - self.bytes.as_ptr() as usize);
-        let mut words = Tokens::new(Format::Vtu, array.text, line, None);
+        let mut words = Tokens::new(Format::Vtu, array.text, line_at(self.bytes, array.text_at), None);
         if let Scalar::Float(_) = scalar {
             let mut values = Vec::new();
             while let Some(word) = words.next() {

@@ -40,6 +40,8 @@ pub(super) struct DataArray<'a> {
     pub place: Place,
     /// The text in the element.
     pub text: &'a [u8],
+    /// Where in the file the text starts.
+    pub text_at: usize,
     /// Where in the file the element starts, to tell the line.
     pub at: usize,
 }
@@ -103,7 +105,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<XmlFile<'_>, ReadError> {
                     parser.end_array();
                 }
             }
-            Event::Text(_) | Event::CData(_) => parser.text(&bytes[start..end]),
+            Event::Text(_) | Event::CData(_) => parser.text(&bytes[start..end], start),
             Event::End(element) => {
                 if parser.open.pop() == Some(Element::DataArray) {
                     parser.end_array();
@@ -174,12 +176,12 @@ impl<'a> Parser<'a> {
         })
     }
 
-    fn text(&mut self, text: &'a [u8]) {
+    fn text(&mut self, text: &'a [u8], at: usize) {
         let blank = text.iter().all(u8::is_ascii_whitespace);
         if let Some(array) = self.array.as_mut().filter(|_| !blank) {
             // VTK also puts InformationKey elements into an array, with text of their own.
             if self.open.last() == Some(&Element::DataArray) {
-                array.text = text;
+                (array.text, array.text_at) = (text, at);
             }
         }
     }
@@ -281,6 +283,7 @@ fn parse_array<'a>(bytes: &[u8], element: &BytesStart<'_>, at: usize) -> Result<
         components: number(bytes, element, at, "NumberOfComponents", Some(1))? as usize,
         place,
         text: &[],
+        text_at: at,
         at,
     })
 }

@@ -55,7 +55,7 @@ fn inp_file() {
     }
     check(
         inp::write(&quads).unwrap(),
-        "*HEADING\nhexmill\n*NODE\n1, 0.0, 0.0, -1.2345678901235e-300\n2, 0.5, 0.0, 0.0\n3, 1e-07, 1.0, 0.0\n4, 0.5, 1.0, 0.0\n\
+        "*HEADING\nhexmill\n*NODE\n1, 0.0, 0.0, -1.234567890123e-300\n2, 0.5, 0.0, 0.0\n3, 1e-7, 1.0, 0.0\n4, 0.5, 1.0, 0.0\n\
          5, 0.3333333333333333, 0.0, 0.0\n6, 1e+21, 1.0, 0.0\n*ELEMENT, TYPE=S4\n1, 1, 2, 4, 3\n2, 2, 5, 6, 4\n\
          *ELSET, ELSET=left\n1\n*ELSET, ELSET=TAG_3\n1\n",
     );
