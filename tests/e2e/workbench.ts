@@ -12,8 +12,8 @@ const MODELS = new URL('../../examples/models/quads/', import.meta.url);
 
 /** The middle of the view at 1440 x 900, clear of the columns and the toolbar. */
 const CLEAR = { x: 330, y: 60, width: 780, height: 660 };
-/** Milliseconds that an element may take to appear. */
-const PATIENCE = 15_000;
+/** Milliseconds that an element may take to appear or to react, on a busy machine that draws in software. */
+const PATIENCE = 45_000;
 /** Channels that differ by less, of 255, look the same. */
 const SAME = 12;
 
