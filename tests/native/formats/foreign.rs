@@ -54,15 +54,18 @@ fn solid_points() -> Vec<Point> {
     (0..12).map(node).map(|(x, y, z)| Point::new(x, y / 2.0, z / 4.0)).collect()
 }
 
-const SURFACE: [(&[u32], i32); 5] =
+/// The nodes of a cell, and its tag.
+type Cell = (&'static [u32], i32);
+
+const SURFACE: [Cell; 5] =
     [(&[0, 1, 4, 3], 1), (&[1, 2, 5, 4], 1), (&[3, 4, 7, 6], 2), (&[4, 5, 8], 2), (&[4, 8, 7], 2)];
-const SOLID: [(&[u32], i32); 2] = [(&[0, 1, 4, 3, 6, 7, 10, 9], 1), (&[1, 2, 5, 4, 7, 8, 11, 10], 2)];
+const SOLID: [Cell; 2] = [(&[0, 1, 4, 3, 6, 7, 10, 9], 1), (&[1, 2, 5, 4, 7, 8, 11, 10], 2)];
 
 #[test]
 fn every_fixture_holds_its_mesh() {
     for (name, bytes, format) in all().filter(|(name, ..)| !name.contains("_lz")) {
         let document = read(bytes, format).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let (points, cells, wanted): (_, Vec<Vec<NodeId>>, &[(&[u32], i32)]) = match &document.mesh {
+        let (points, cells, wanted): (_, Vec<Vec<NodeId>>, &[Cell]) = match &document.mesh {
             AnyMesh::Hexes(mesh) => {
                 (&mesh.positions, mesh.hexes.iter().map(|h| h.to_vec()).collect(), &SOLID)
             }

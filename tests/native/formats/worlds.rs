@@ -60,6 +60,15 @@ pub fn mixed_polygons() -> PolygonMesh {
     mesh
 }
 
+/// Triangles and quads only.
+pub fn triangles_and_quads() -> PolygonMesh {
+    let mut mesh = PolygonMesh { positions: mixed_polygons().positions, ..PolygonMesh::default() };
+    for face in mixed_polygons().faces().filter(|face| face.len() <= 4) {
+        mesh.push_face(face.iter().copied());
+    }
+    mesh
+}
+
 /// A document of `mesh` whose cells have the tag sets in turn, with levels and parents.
 pub fn document(mesh: AnyMesh, sets: Vec<TagSet>) -> Document {
     let count = match &mesh {
