@@ -63,7 +63,7 @@ const FLAVOURS = [
     cargo: ['-Z', 'build-std=std,panic_abort'],
     env: { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: THREADS_FLAGS },
   },
-  { name: 'viewer', features: 'viewer', profile: 'viewer' },
+  { name: 'viewer', features: 'viewer' },
 ];
 
 /**
@@ -105,7 +105,7 @@ async function buildFlavour(flavour, run) {
 }
 
 /** What cargo makes of the flavour: the bytes of the module. A target folder each, so that flags never clash. */
-async function compile({ name, features, profile = 'release', cargo = [], env = {} }, run) {
+async function compile({ name, features, profile = 'web', cargo = [], env = {} }, run) {
   const targetFolder = targetFolderOf(name);
   const args = ['rustc', '--lib', '--crate-type', 'cdylib', '--target', TARGET, '--profile', profile];
   const selection = ['--no-default-features', '--features', features, '--target-dir', targetFolder];
@@ -122,7 +122,7 @@ function compiledPath(name, profile) {
 }
 
 /** Makes the JavaScript side with wasm-bindgen and optimizes the module with Binaryen. */
-async function bind({ name, profile = 'release', optimize }, folder, run) {
+async function bind({ name, profile = 'web', optimize }, folder, run) {
   const how = [...BINDGEN_FLAGS, '--out-dir', folder, '--out-name', name];
   await must('wasm-bindgen', [compiledPath(name, profile), ...how], run);
   rmSync(join(folder, `${name}_bg.wasm.d.ts`));
