@@ -95,15 +95,15 @@ struct Sampled {
 /// Follows the trees from the base level down.
 fn follow_sample(input: &PolygonMesh, demand: &Demand, options: &QuadOptions) -> Estimate {
     let mut level = if options.keep_coarse { 0 } else { 1 };
-    let wants = |s: &Sampled| {
+    let wants = |level: u8, s: &Sampled| {
         level < options.max_levels && demand.wants(s.corners, outline(&s.corners).1, level, s.root)
     };
     let base_count = if options.keep_coarse { input.face_count() } else { input.corners.len() };
-    let wanted: Vec<(u32, u8)> = (0..input.face_count() as u32)
+    let wanted: Vec<(u32, usize)> = (0..input.face_count() as u32)
         .into_par_iter()
         .flat_map_iter(|f| {
             let elements = base(input, f as usize, level).into_iter().enumerate();
-            elements.filter(|(_, s)| wants(s)).map(move |(k, _)| (f, k as u8)).collect::<Vec<_>>()
+            elements.filter(|(_, s)| wants(level, s)).map(move |(k, _)| (f, k)).collect::<Vec<_>>()
         })
         .collect();
     let mut quads = (base_count - wanted.len()) as f64;
@@ -113,7 +113,7 @@ fn follow_sample(input: &PolygonMesh, demand: &Demand, options: &QuadOptions) ->
         .into_iter()
         .filter_map(|k| {
             let (face, corner) = wanted[k];
-            base(input, face as usize, level).into_iter().nth(corner.into())
+            base(input, face as usize, level).into_iter().nth(corner)
         })
         .collect();
     while !parents.is_empty() {
@@ -121,11 +121,8 @@ fn follow_sample(input: &PolygonMesh, demand: &Demand, options: &QuadOptions) ->
         let all: Vec<Sampled> = parents.iter().flat_map(|s| split(&s.corners, s.root)).collect();
         let kept = chosen(all.len(), level);
         weight *= all.len() as f64 / kept.len() as f64;
-        let wants = |s: &Sampled| {
-            level < options.max_levels && demand.wants(s.corners, outline(&s.corners).1, level, s.root)
-        };
         let kept_count = kept.len();
-        parents = kept.into_iter().map(|k| all[k]).filter(wants).collect();
+        parents = kept.into_iter().map(|k| all[k]).filter(|s| wants(level, s)).collect();
         quads += weight * (kept_count - parents.len()) as f64;
     }
     let quads = quads as u64;
