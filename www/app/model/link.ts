@@ -66,14 +66,13 @@ export function parseLink(hash: string): Linked | null {
 /** `sphere:0,0,0,1:h=0.1`, as the command line takes it. */
 export function formatRegion({ shape, target }: Region): string {
   const goal = target.by === 'size' ? `h=${editable(target.size)}` : `level=${target.level}`;
-  const turn = shape.kind === 'box' && shape.rotation ? `:rotation=${shape.rotation.map((x) => editable(x)).join(',')}` : '';
-  return `${shape.kind}:${numbers(shape).map((x) => editable(x)).join(',')}${turn}:${goal}`;
+  return `${shape.kind}:${numbers(shape).map((x) => editable(x)).join(',')}:${goal}`;
 }
 
 function numbers(shape: Shape): number[] {
   switch (shape.kind) {
     case 'box':
-      return [...shape.min, ...shape.max];
+      return [...shape.min, ...shape.max, ...(shape.rotation ?? [])];
     case 'sphere':
       return [...shape.center, shape.radius];
     case 'cylinder':
@@ -87,18 +86,18 @@ export function parseRegion(text: string): Region | null {
   const named = new Map(rest.map((part) => part.split('=', 2) as [string, string]));
   const values = figures.split(',').map(parseNumber);
   if (values.includes(null)) return null;
-  const shape = shapeOf(kind, values as number[], named.get('rotation'));
+  const shape = shapeOf(kind, values as number[]);
   const target = targetOf(named);
   return shape && target && !fault(shape) ? region(shape, target) : null;
 }
 
-function shapeOf(kind: string, v: number[], rotation: string | undefined): Shape | null {
+function shapeOf(kind: string, v: number[]): Shape | null {
   const [a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0] = v;
   if (kind === 'sphere' && v.length === 4) return { kind, center: [a, b, c], radius: d };
   if (kind === 'cylinder' && v.length === 7) return { kind, from: [a, b, c], to: [d, e, f], radius: g };
-  if (kind !== 'box' || v.length !== 6) return null;
-  const [x, y, z, w] = rotation?.split(',').map(parseNumber) ?? [];
-  const turn = x != null && y != null && z != null && w != null ? { rotation: [x, y, z, w] as [number, number, number, number] } : {};
+  if (kind !== 'box' || (v.length !== 6 && v.length !== 10)) return null;
+  const [x = 0, y = 0, z = 0, w = 1] = v.slice(6);
+  const turn = v.length === 10 ? { rotation: [x, y, z, w] as [number, number, number, number] } : {};
   return { kind, min: [a, b, c], max: [d, e, f], ...turn };
 }
 
