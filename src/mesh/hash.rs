@@ -2,7 +2,7 @@
 
 use xxhash_rust::xxh3::Xxh3;
 
-use super::NodeId;
+use super::{NodeId, PolygonMesh};
 use crate::geometry::Point;
 
 /// 128 bits that tell meshes apart; shown as 32 hexadecimal digits.
@@ -38,8 +38,29 @@ impl serde::Serialize for MeshHash {
 /// assert_eq!(hash.to_string(), "902d19085337aea86512040df6a7e2f6");
 /// ```
 pub fn mesh_hash<const N: usize>(positions: &[Point], cells: &[[NodeId; N]]) -> MeshHash {
+    let mut hash = begin(positions, cells.len(), N);
+    add_ids(&mut hash, bytemuck::cast_slice(cells.as_flattened()));
+    MeshHash(hash.digest128())
+}
+
+/// The fingerprint of a polygon mesh. If all faces have the same number of nodes it is that of [`mesh_hash`];
+/// else the `N` in its bytes is 0, and the faces' numbers of nodes, a `u32` each, stand before their nodes.
+pub fn polygon_hash(mesh: &PolygonMesh) -> MeshHash {
+    let sizes = || mesh.offsets.windows(2).map(|ends| ends[1] - ends[0]);
+    let size = sizes().next().unwrap_or(0);
+    let common = if sizes().all(|n| n == size) { size } else { 0 };
+    let mut hash = begin(&mesh.positions, mesh.face_count(), common as usize);
+    if common == 0 {
+        add_ids(&mut hash, &sizes().collect::<Vec<_>>());
+    }
+    add_ids(&mut hash, bytemuck::cast_slice(&mesh.corners));
+    MeshHash(hash.digest128())
+}
+
+/// A hash of the counts and the nodes.
+fn begin(positions: &[Point], cells: usize, nodes_a_cell: usize) -> Xxh3 {
     let mut hash = Xxh3::new();
-    for count in [positions.len(), cells.len(), N] {
+    for count in [positions.len(), cells, nodes_a_cell] {
         hash.update(&(count as u64).to_le_bytes());
     }
     let mut coordinates = Vec::with_capacity(BLOCK);
@@ -49,13 +70,16 @@ pub fn mesh_hash<const N: usize>(positions: &[Point], cells: &[[NodeId; N]]) -> 
         coordinates.extend(block.iter().map(|x| (x + 0.0).to_bits().to_le()));
         hash.update(bytemuck::cast_slice(&coordinates));
     }
+    hash
+}
+
+fn add_ids(hash: &mut Xxh3, numbers: &[u32]) {
     let mut ids = Vec::with_capacity(BLOCK);
-    for block in cells.as_flattened().chunks(BLOCK) {
+    for block in numbers.chunks(BLOCK) {
         ids.clear();
-        ids.extend(block.iter().map(|n| n.0.to_le()));
+        ids.extend(block.iter().map(|n| n.to_le()));
         hash.update(bytemuck::cast_slice(&ids));
     }
-    MeshHash(hash.digest128())
 }
 
 /// Numbers that are brought into shape before they are hashed: a block stays in the nearest cache.
@@ -102,5 +126,34 @@ mod tests {
         let ids: [NodeId; 8] = std::array::from_fn(NodeId::new);
         let quads = [[ids[0], ids[1], ids[2], ids[3]], [ids[4], ids[5], ids[6], ids[7]]];
         assert_ne!(mesh_hash(&[], &quads), mesh_hash(&[], &[ids]));
+    }
+
+    fn polygons(faces: &[&[u32]]) -> PolygonMesh {
+        let mut mesh = PolygonMesh { positions: vec![Point::ONE; 6], ..PolygonMesh::default() };
+        for face in faces {
+            mesh.push_face(face.iter().copied().map(NodeId));
+        }
+        mesh
+    }
+
+    #[test]
+    fn polygons_of_one_size_hash_as_cells_of_that_size() {
+        let quads = polygons(&[&[0, 1, 2, 3], &[1, 4, 5, 2]]);
+        let cells = [[0, 1, 2, 3], [1, 4, 5, 2]].map(|q| q.map(NodeId));
+        assert_eq!(polygon_hash(&quads), mesh_hash(&quads.positions, &cells));
+        assert_eq!(polygon_hash(&PolygonMesh::default()), mesh_hash::<0>(&[], &[]));
+    }
+
+    #[test]
+    fn polygons_of_several_sizes_hash_by_size_and_nodes() {
+        let mesh = polygons(&[&[0, 1, 2], &[1, 4, 5, 2]]);
+        let mut bytes = Vec::new();
+        for count in [6u64, 2, 0] {
+            bytes.extend(count.to_le_bytes());
+        }
+        mesh.positions.iter().for_each(|p| p.to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes())));
+        [3u32, 4, 0, 1, 2, 1, 4, 5, 2].iter().for_each(|n| bytes.extend(n.to_le_bytes()));
+        assert_eq!(polygon_hash(&mesh), MeshHash(xxhash_rust::xxh3::xxh3_128(&bytes)));
+        assert_ne!(polygon_hash(&mesh), polygon_hash(&polygons(&[&[0, 1, 2, 1], &[4, 5, 2]])));
     }
 }

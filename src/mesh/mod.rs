@@ -14,7 +14,7 @@ pub mod topology;
 
 pub use check::{Defect, check_polygons, check_quads};
 pub use faces::Faces;
-pub use hash::{MeshHash, mesh_hash};
+pub use hash::{MeshHash, mesh_hash, polygon_hash};
 pub use hex::HexMesh;
 pub use id::{EdgeId, FaceId, HexId, NodeId};
 pub use polygon::{Features, PolygonMesh};

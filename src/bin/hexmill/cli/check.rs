@@ -81,7 +81,7 @@ fn in_words(args: &CheckArgs, report: &Report) -> String {
         lines.push(format!("  distance to the surface: {}", distance.mesh_to_surface.in_words()));
         lines.push(format!("  distance from the surface: {}", distance.surface_to_mesh.in_words()));
     }
-    lines.extend(mesh.hash.map(|hash| format!("  hash {hash}")));
+    lines.push(format!("  hash {}", mesh.hash));
     lines.join("\n") + "\n"
 }
 

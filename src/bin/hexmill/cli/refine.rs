@@ -109,6 +109,6 @@ fn in_words(args: &RefineArgs, report: &Report) -> String {
         ));
     }
     lines.extend(mesh.quality.as_ref().map(super::report::quality_table));
-    lines.extend(mesh.hash.map(|hash| format!("  hash {hash}, {:.2} s", report.seconds)));
+    lines.push(format!("  hash {}, {:.2} s", mesh.hash, report.seconds));
     lines.join("\n") + "\n"
 }

@@ -7,7 +7,7 @@ use hexmill::io::Format;
 use hexmill::mesh::check::{DefectCount, summary};
 use hexmill::mesh::quality::{Distribution, QualityReport, quad_quality};
 use hexmill::mesh::topology::{SurfaceReport, surface_report};
-use hexmill::mesh::{Defect, Edges, Faces, MeshHash, NodeId, PolygonMesh, QuadMesh, mesh_hash};
+use hexmill::mesh::{Defect, Edges, Faces, MeshHash, NodeId, PolygonMesh, QuadMesh, mesh_hash, polygon_hash};
 use serde::Serialize;
 
 use super::distance::Distances;
@@ -171,7 +171,7 @@ fn bounds(of: Aabb) -> Option<Bounds> {
 pub(crate) struct MeshReport {
     #[serde(flatten)]
     pub(crate) counts: Counts,
-    pub(crate) hash: Option<MeshHash>,
+    pub(crate) hash: MeshHash,
     pub(crate) levels: Vec<LevelCount>,
     pub(crate) capped: usize,
     pub(crate) quality: Option<QualityReport>,
@@ -213,7 +213,7 @@ impl MeshReport {
     pub(crate) fn of_quads(mesh: &QuadMesh, level: &[u8], capped: usize) -> Self {
         Self {
             counts: Counts::of_quads(mesh),
-            hash: Some(mesh_hash(&mesh.positions, &mesh.quads)),
+            hash: mesh_hash(&mesh.positions, &mesh.quads),
             levels: levels(level),
             capped,
             quality: quad_quality(mesh).report(),
@@ -230,7 +230,7 @@ impl MeshReport {
         }
         Self {
             counts: Counts::of_polygons(mesh),
-            hash: triangles_of(mesh).map(|triangles| mesh_hash(&mesh.positions, &triangles)),
+            hash: polygon_hash(mesh),
             levels: levels(level),
             capped: 0,
             quality: quad_quality(&quads).report(),
@@ -250,11 +250,6 @@ impl MeshReport {
 fn quads_of(mesh: &PolygonMesh) -> QuadMesh {
     let quads = mesh.faces().filter_map(|face| <[NodeId; 4]>::try_from(face).ok()).collect();
     QuadMesh { positions: mesh.positions.clone(), quads }
-}
-
-/// The faces if all of them are triangles.
-fn triangles_of(mesh: &PolygonMesh) -> Option<Vec<[NodeId; 3]>> {
-    mesh.faces().map(|face| face.try_into().ok()).collect()
 }
 
 fn levels(level: &[u8]) -> Vec<LevelCount> {
