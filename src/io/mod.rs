@@ -31,6 +31,7 @@ mod vtk_cells;
 pub use document::{AnyMesh, Document};
 pub use error::{ReadError, WriteError};
 pub use format::Format;
+pub use sniff::detect;
 
 /// Reads a mesh from the bytes of a file.
 pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {

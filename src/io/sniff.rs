@@ -1,4 +1,6 @@
-//! What a file is when it is not what it was taken for, told by its first bytes.
+//! What a file is, told by its first bytes.
+
+use super::{Format, ReadError};
 
 /// Bytes that a kind of file starts with, and what to call it.
 const STARTS: &[(&[u8], &str)] = &[
@@ -39,6 +41,54 @@ const STARTS: &[(&[u8], &str)] = &[
     (b"[", "a JSON file"),
     (b"<", "an XML or HTML file"),
 ];
+
+/// Keywords that an OBJ file may start with.
+const OBJ_KEYWORDS: &[&[u8]] = &[
+    b"v", b"vt", b"vn", b"vp", b"f", b"l", b"p", b"o", b"g", b"s", b"t", b"mg", b"mtllib", b"usemtl",
+    b"usemap", b"maplib", b"cstype",
+];
+
+/// How far into a file its XML root element may stand, after a declaration and comments.
+const XML_HEAD: usize = 4096;
+
+/// Tells the format of a file whose name says nothing of it.
+///
+/// # Errors
+/// If the content is of none of the formats; the message names those that are read.
+pub fn detect(bytes: &[u8]) -> Result<Format, ReadError> {
+    known_format(bytes).ok_or_else(|| {
+        let is = wide_text(bytes).map(|encoding| format!("this is {encoding} text"));
+        let is = is.or_else(|| not_obj(bytes).map(|kind| format!("this is {kind}")));
+        let is = is.unwrap_or_else(|| "the content is of no known format".to_owned());
+        let readable: Vec<_> = Format::ALL.into_iter().filter(|&f| f != Format::Glb).collect();
+        let names: Vec<_> = readable.into_iter().map(|f| format!(".{}", f.name())).collect();
+        let message = format!("{is}: give one of {}, or name the format", names.join(", "));
+        ReadError { format: Format::Obj, line: None, code: "format-unknown", message }
+    })
+}
+
+fn known_format(bytes: &[u8]) -> Option<Format> {
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start();
+    if text.starts_with(b"# vtk DataFile") {
+        return Some(Format::Vtk);
+    }
+    if text.starts_with(b"glTF") {
+        return Some(Format::Glb);
+    }
+    if text.starts_with(b"<") {
+        let head = &text[..text.len().min(XML_HEAD)];
+        return memchr::memmem::find(head, b"<VTKFile").map(|_| Format::Vtu);
+    }
+    let mut lines = text.split(|&b| b == b'\n' || b == b'\r').map(<[u8]>::trim_ascii);
+    let line = lines.find(|line| !line.is_empty() && !line.starts_with(b"#"))?;
+    let word = line.split(|b| b.is_ascii_whitespace()).next()?;
+    match word {
+        [b'$', ..] => matches!(word, b"$MeshFormat" | b"$Comments").then_some(Format::Msh),
+        [b'*', b'*' | b'A'..=b'Z' | b'a'..=b'z', ..] => Some(Format::Inp),
+        _ if word.starts_with(b"MeshVersionFormatted") => Some(Format::Medit),
+        _ => OBJ_KEYWORDS.contains(&word).then_some(Format::Obj),
+    }
+}
 
 /// Names what `bytes` are if they are well known to be no OBJ.
 pub(super) fn not_obj(bytes: &[u8]) -> Option<&'static str> {

@@ -1,7 +1,7 @@
 //! Files that VTK, meshio and Gmsh wrote (`tests/fixtures/make_fixtures.py`).
 
 use hexmill::geometry::Point;
-use hexmill::io::{AnyMesh, Format};
+use hexmill::io::{self, AnyMesh, Format};
 use hexmill::mesh::NodeId;
 
 use super::round_trip::read;
@@ -98,4 +98,27 @@ fn compressions_that_are_not_read_are_told() {
         assert_eq!(error.code, "unsupported-encoding", "{name}");
         assert!(error.to_string().starts_with("line 2: the data are compressed by vtkLZ"), "{error}");
     }
+}
+
+#[test]
+fn the_format_is_told_by_the_content() {
+    for (name, bytes, format) in all() {
+        assert_eq!(io::detect(bytes).ok(), Some(format), "{name}");
+    }
+    for obj in ["v 0 0 0\n", "\u{feff}# made by\r\n\r\nmtllib a.mtl\n", "  o part\n", "f 1 2 3"] {
+        assert_eq!(io::detect(obj.as_bytes()).ok(), Some(Format::Obj), "{obj:?}");
+    }
+}
+
+#[test]
+fn content_of_no_format_is_refused_by_name() {
+    let refused = |bytes: &[u8]| io::detect(bytes).expect_err("no format");
+    for bytes in [b"".as_slice(), b"# only a comment", b"Dear reader,\n", b"<svg/>", b"\xFF\xFEv\0 \0"] {
+        let error = refused(bytes);
+        assert_eq!(error.code, "format-unknown");
+        assert!(error.message.contains(".obj") && error.message.contains(".vtu"), "{error}");
+        assert!(!error.message.contains("glb"), "GLB is not read: {error}");
+    }
+    assert!(refused(b"\x89PNG\r\n").message.contains("PNG"));
+    assert!(refused(b"solid part\n").message.contains("STL"));
 }
