@@ -44,7 +44,7 @@ pub fn refine_quads(
     options: &QuadOptions,
     monitor: &dyn Monitor,
 ) -> Result<RefinedQuads, RefineError> {
-    refuse_absurd(input, &Demand::new(input, options)?, options)?;
+    refuse_absurd(input, &Demand::new(input, options)?, options, monitor)?;
     refine_within(input, options, monitor)
 }
 

@@ -49,6 +49,11 @@ impl Failure {
         Self::new(Kind::Options, code, message)
     }
 
+    /// The work would be larger than allowed.
+    pub fn limit(code: &'static str, message: &impl Display) -> Self {
+        Self::new(Kind::Limit, code, message)
+    }
+
     /// Something happened that should be impossible.
     pub fn internal(code: &'static str, message: &impl Display) -> Self {
         Self::new(Kind::Internal, code, message)

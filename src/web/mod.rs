@@ -10,6 +10,8 @@ mod errors;
 #[cfg(feature = "mesher")]
 mod listener;
 #[cfg(feature = "mesher")]
+mod memory;
+#[cfg(feature = "mesher")]
 mod pool;
 #[cfg(feature = "mesher")]
 mod quads;

@@ -6,12 +6,12 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use super::errors::Failure;
 use super::listener::Listener;
+use super::memory::Affordable;
 use super::pool::on_pool;
 use super::surface::{Surface, check_ids, format_named, points};
 use crate::geometry::Point;
 use crate::io::{self, Document};
 use crate::mesh::check::{check_quads, summary};
-
 use crate::mesh::quality::quad_quality;
 use crate::mesh::{FaceId, NodeId, QuadMesh, mesh_hash};
 use crate::refine::{QuadOptions, RefinedQuads, estimate_quads, refine_quads};
@@ -81,11 +81,13 @@ impl From<RefinedQuads> for Quads {
 /// Refines a surface; see `refine::refine_quads`.
 ///
 /// # Errors
-/// What `refine_quads` refuses, and options that are none.
+/// What `refine_quads` refuses, meshes that memory would not hold, and options that are none.
 #[wasm_bindgen(js_name = refineQuads)]
 pub fn refine(surface: &Surface, options: JsValue) -> Result<Quads, Failure> {
-    let options: QuadOptions = serde_wasm_bindgen::from_value(options)?;
-    Ok(on_pool(|| refine_quads(&surface.mesh, &options, &Listener))?.into())
+    let affordable = Affordable::read(options)?;
+    on_pool(|| refine_quads(&surface.mesh, &affordable.options, &Listener))
+        .map(Quads::from)
+        .map_err(|error| affordable.failure(error))
 }
 
 /// Tells how large the result of [`refine`] will be; see `refine::Estimate` for the fields.
@@ -95,7 +97,7 @@ pub fn refine(surface: &Surface, options: JsValue) -> Result<Quads, Failure> {
 #[wasm_bindgen(js_name = estimateQuads)]
 pub fn estimate(surface: &Surface, options: JsValue) -> Result<JsValue, Failure> {
     let options: QuadOptions = serde_wasm_bindgen::from_value(options)?;
-    let estimate = on_pool(|| estimate_quads(&surface.mesh, &options))?;
+    let estimate = on_pool(|| estimate_quads(&surface.mesh, &options, &Listener))?;
     Ok(serde_wasm_bindgen::to_value(&estimate)?)
 }
 
@@ -106,8 +108,8 @@ pub fn estimate(surface: &Surface, options: JsValue) -> Result<JsValue, Failure>
 #[wasm_bindgen(js_name = exportQuads)]
 pub fn export(
     surface: &Surface,
-    nodes: &[f64],
-    quads: &[u32],
+    nodes: Vec<f64>,
+    quads: Vec<u32>,
     level: Vec<u8>,
     parent: &[u32],
     format: &str,
@@ -126,7 +128,7 @@ pub fn export(
 /// # Errors
 /// If the arrays do not fit together or there is no such measure.
 #[wasm_bindgen(js_name = quadQuality)]
-pub fn quality(nodes: &[f64], quads: &[u32], metric: &str) -> Result<Float32Array, Failure> {
+pub fn quality(nodes: Vec<f64>, quads: Vec<u32>, metric: &str) -> Result<Float32Array, Failure> {
     let mesh = quad_mesh(nodes, quads)?;
     let quality = on_pool(|| quad_quality(&mesh));
     let values = match metric {
@@ -143,14 +145,15 @@ pub fn quality(nodes: &[f64], quads: &[u32], metric: &str) -> Result<Float32Arra
     Ok(values.as_slice().into())
 }
 
-fn quad_mesh(nodes: &[f64], quads: &[u32]) -> Result<QuadMesh, Failure> {
+/// The mesh of these arrays, in their own memory.
+fn quad_mesh(nodes: Vec<f64>, quads: Vec<u32>) -> Result<QuadMesh, Failure> {
     let positions = points(nodes)?;
-    check_ids(quads, positions.len())?;
-    let quads = bytemuck::try_cast_slice::<u32, [NodeId; 4]>(quads).map_err(|_| {
+    check_ids(&quads, positions.len())?;
+    let quads = bytemuck::try_cast_vec::<u32, [NodeId; 4]>(quads).map_err(|(_, quads)| {
         let message = format!("the array of quads has {} numbers, not four for each quad", quads.len());
         Failure::input("array-length", &message)
     })?;
-    Ok(QuadMesh { positions, quads: quads.to_vec() })
+    Ok(QuadMesh { positions, quads })
 }
 
 fn check_parents(parent: &[u32], quads: usize, faces: usize) -> Result<(), Failure> {

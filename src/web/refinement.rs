@@ -8,17 +8,18 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use super::errors::Failure;
 use super::listener::Listener;
+use super::memory::Affordable;
 use super::pool::on_pool;
 use super::quads::Quads;
 use super::surface::Surface;
 use crate::geometry::Point;
 use crate::mesh::PolygonMesh;
-use crate::refine::{Candidates, QuadOptions, QuadRefinement};
+use crate::refine::{Candidates, QuadRefinement, RefineError};
 
 /// What a refinement reads: JavaScript knows no lifetimes, so the session keeps it alive.
 struct Input {
     mesh: Arc<PolygonMesh>,
-    options: QuadOptions,
+    affordable: Affordable,
 }
 
 type Work<'a> = Option<QuadRefinement<'a>>;
@@ -47,10 +48,11 @@ impl Refinement {
     /// What `QuadRefinement::new` refuses, and options that are none.
     #[wasm_bindgen(constructor)]
     pub fn new(surface: &Surface, options: JsValue) -> Result<Self, Failure> {
-        let options: QuadOptions = serde_wasm_bindgen::from_value(options)?;
-        let input = Input { mesh: Arc::clone(&surface.mesh), options };
+        let input = Input { mesh: Arc::clone(&surface.mesh), affordable: Affordable::read(options)? };
         let session = on_pool(|| {
-            Session::try_new(input, |input| QuadRefinement::new(&input.mesh, &input.options).map(Some))
+            Session::try_new(input, |input| {
+                QuadRefinement::new(&input.mesh, &input.affordable.options).map(Some)
+            })
         })?;
         let mut refinement = Self { session, candidates: Candidates::default() };
         refinement.look()?;
@@ -85,7 +87,8 @@ impl Refinement {
                 format!("sizeFunction returned {} for element {at}; return an edge length", targets[at]);
             return Err(Failure::options("size-function-value", &message));
         }
-        let deeper = self.step(|work| work.advance(Some(targets), &Listener))??;
+        let deeper = self.step(|work| work.advance(Some(targets), &Listener))?;
+        let deeper = deeper.map_err(|error| self.failure(error))?;
         self.look()?;
         Ok(deeper)
     }
@@ -99,7 +102,11 @@ impl Refinement {
             let work = work.take();
             on_pool(|| work.map(|work| work.finish(&Listener)))
         });
-        Ok(work.ok_or_else(over)??.into())
+        work.ok_or_else(over)?.map(Quads::from).map_err(|error| self.failure(error))
+    }
+
+    fn failure(&self, error: RefineError) -> Failure {
+        self.session.borrow_owner().affordable.failure(error)
     }
 
     fn look(&mut self) -> Result<(), Failure> {

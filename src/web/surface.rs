@@ -12,7 +12,7 @@ use crate::geometry::{Aabb, Point};
 use crate::io;
 use crate::mesh::check::{check_polygons, summary};
 use crate::mesh::topology::{SurfaceReport, surface_report};
-use crate::mesh::{Edges, NodeId, PolygonMesh};
+use crate::mesh::{Edges, MeshHash, NodeId, PolygonMesh, polygon_hash};
 
 /// A polygon surface in this module's memory.
 #[wasm_bindgen]
@@ -26,6 +26,7 @@ pub struct Surface {
 struct Info {
     #[serde(flatten)]
     report: SurfaceReport,
+    hash: MeshHash,
     triangles: usize,
     quads: usize,
     /// Faces of five nodes and more.
@@ -45,12 +46,12 @@ struct Bounds {
 
 #[wasm_bindgen]
 impl Surface {
-    /// The surface in a file of the named format.
+    /// The surface in a file of the named format; without one the content tells it.
     ///
     /// # Errors
     /// What the format's reader refuses, unknown formats, and files of hexahedra.
-    pub fn read(bytes: &[u8], format: &str) -> Result<Self, Failure> {
-        let format = format_named(format)?;
+    pub fn read(bytes: &[u8], format: Option<String>) -> Result<Self, Failure> {
+        let format = format.map_or_else(|| Ok(io::detect(bytes)?), |name| format_named(&name))?;
         let document = on_pool(|| io::read(bytes, format))?;
         let mesh = document.into_surface().ok_or_else(|| {
             let message = "the file holds hexahedra; give a surface of polygons";
@@ -65,7 +66,7 @@ impl Surface {
     /// # Errors
     /// If the arrays do not fit together.
     #[wasm_bindgen(js_name = fromArrays)]
-    pub fn from_arrays(nodes: &[f64], offsets: Option<Vec<u32>>, corners: &[u32]) -> Result<Self, Failure> {
+    pub fn from_arrays(nodes: Vec<f64>, offsets: Option<Vec<u32>>, corners: &[u32]) -> Result<Self, Failure> {
         let positions = points(nodes)?;
         check_ids(corners, positions.len())?;
         let offsets = match offsets {
@@ -118,6 +119,7 @@ impl Info {
         let Aabb { min, max } = mesh.bounds();
         Self {
             report: surface_report(mesh, &edges),
+            hash: polygon_hash(mesh),
             triangles: faces_of(|n| n == 3),
             quads: faces_of(|n| n == 4),
             polygons: faces_of(|n| n > 4),
@@ -138,14 +140,14 @@ pub(super) fn format_named(name: &str) -> Result<io::Format, Failure> {
     })
 }
 
-/// The nodes of an array of x, y, z.
-pub(super) fn points(nodes: &[f64]) -> Result<Vec<Point>, Failure> {
+/// The nodes of an array of x, y, z, in its own memory.
+pub(super) fn points(nodes: Vec<f64>) -> Result<Vec<Point>, Failure> {
     if let Some(at) = nodes.iter().position(|x| !x.is_finite()) {
         let message =
             format!("coordinate {} of node {} is {}, not a finite number", at % 3, at / 3, nodes[at]);
         return Err(Failure::input("array-not-finite", &message));
     }
-    bytemuck::try_cast_slice(nodes).map(<[Point]>::to_vec).map_err(|_| {
+    bytemuck::try_cast_vec(nodes).map_err(|(_, nodes)| {
         let message = format!("the array of nodes has {} numbers, not three for each node", nodes.len());
         Failure::input("array-length", &message)
     })

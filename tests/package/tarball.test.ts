@@ -16,12 +16,13 @@ import type { Project } from './project.js';
 /** The most that a module of the mesher may weigh when compressed, in bytes. */
 const MESHER_BUDGET = 400_000;
 
+/** A cancelled call has to leave the processor to the next within this time, in milliseconds. */
+const PROMPT = 200;
+
 interface Outcome {
   threads: number;
   hashes: Record<string, string>;
-  cancelled: string;
-  cancelledAfter: number;
-  stages: string[];
+  cancellations: { error: string; after: number; nextAfter: number; quads: number; toldAfter: number; stages: string[] }[];
   faces: number;
   refused: { name: string; line: number };
   ended: string;
@@ -33,13 +34,20 @@ function expectGood(outcome: Outcome, threads: number) {
   expect(outcome).toMatchObject({
     threads,
     hashes: Object.fromEntries(expected.map(({ name, hash }) => [name, hash])),
-    cancelled: 'AbortError',
     faces: 4,
     refused: { name: 'InputError', line: 2 },
     ended: 'terminated',
   });
-  expect(outcome.cancelledAfter).toBeLessThan(200);
-  expect(outcome.stages.length).toBeGreaterThan(0);
+  for (const { error, after, quads, toldAfter, stages } of outcome.cancellations) {
+    expect(error).toBe('AbortError');
+    expect(after).toBeLessThan(PROMPT);
+    expect(toldAfter).toBe(0);
+    expect(stages.length).toBeGreaterThan(0);
+    expect(quads).toBe(12);
+  }
+  // Other programs may hold up the machine: the best counts.
+  const delays = outcome.cancellations.map(({ nextAfter }) => nextAfter);
+  expect(Math.min(...delays), `milliseconds from abort to the next answer: ${delays}`).toBeLessThan(PROMPT);
 }
 
 let project: Project;

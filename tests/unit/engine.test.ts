@@ -8,9 +8,9 @@ import type { FakeWorker } from './fake-platform.js';
 
 const record: SurfaceRecord = { id: 7, source: { format: 'obj', content: 'v 0 0 0' } };
 
-async function startEngine() {
+async function startEngine({ pool = 0 } = {}) {
   const { platform, workers } = fakePlatform();
-  const engine = new Engine({ platform, workerUrl: undefined, module: 'http://localhost/mesher.wasm', threads: 1 });
+  const engine = new Engine({ platform, workerUrl: undefined, module: 'http://localhost/mesher.wasm', pool });
   await engine.start();
   const worker = (index: number): FakeWorker => {
     const found = workers[index];
@@ -126,6 +126,38 @@ describe('cancelling', () => {
     expect(await next).toEqual({ quads: 4 });
   });
 
+  it('asks threads that share memory to stop, and keeps them', async () => {
+    const { engine, workers, worker } = await startEngine({ pool: 2 });
+    const abort = new AbortController();
+    const call = engine.run((desk) => desk.call('finish', {}), { signal: abort.signal });
+    await settle();
+    expect(worker(0).isAsked).toBe(false);
+    abort.abort();
+    await expect(call).rejects.toBeInstanceOf(CancelledError);
+    expect(worker(0).isAsked).toBe(true);
+    worker(0).answer('stopped');
+    const next = engine.run((desk) => desk.call('finish', {}));
+    await settle();
+    expect(worker(0).isAsked).toBe(false);
+    worker(0).answer('next');
+    expect(await next).toBe('next');
+    expect(workers).toHaveLength(3);
+  });
+
+  it('frees a surface whose loading was cancelled', async () => {
+    const { engine, worker } = await startEngine();
+    const abort = new AbortController();
+    const loading = engine.run((desk) => desk.load(record), { signal: abort.signal });
+    await settle();
+    abort.abort();
+    await expect(loading).rejects.toBeInstanceOf(CancelledError);
+    engine.drop(record.id);
+    worker(0).answer({});
+    await settle();
+    expect(worker(0).terminated).toBe(false);
+    expect(worker(0).dropped).toEqual([record.id]);
+  });
+
   it('does not wait for a size function that never returns', async () => {
     const { engine, worker } = await startEngine();
     const abort = new AbortController();
@@ -179,7 +211,7 @@ describe('trouble', () => {
       worker.post = () => workers[0]?.die('no such script');
       return worker;
     };
-    const engine = new Engine({ platform, workerUrl: undefined, module: 'mesher.wasm', threads: 1 });
+    const engine = new Engine({ platform, workerUrl: undefined, module: 'mesher.wasm', pool: 0 });
     await expect(engine.start()).rejects.toMatchObject({ code: 'worker-failed' });
   });
 

@@ -6,8 +6,13 @@ import type { CallName, Calls, SurfaceSource } from './protocol.js';
 import { Team } from './team.js';
 import type { TeamSettings } from './team.js';
 
-/** A cancelled call may take this long to stop by itself before its workers are discarded, in milliseconds. */
-const GRACE = 100;
+/** How long a cancelled call may take to stop before its workers are discarded, in milliseconds. */
+const GRACE = {
+  /** Where it has been asked to. */
+  asked: 100,
+  /** Where it cannot be asked, and only may happen to end. */
+  unasked: 20,
+};
 
 /** A surface as the calling thread keeps it. */
 export interface SurfaceRecord {
@@ -31,17 +36,33 @@ interface Job {
   fail(error: HexmillError): void;
 }
 
+/** What an engine is made of. */
+export interface EngineSettings extends TeamSettings {
+  /** Overrules how long a cancelled call that cannot be asked to stop is waited for. */
+  grace?: number;
+}
+
 /** Runs tasks on a team of workers. */
 export class Engine {
-  readonly #settings: TeamSettings;
+  readonly #settings: EngineSettings;
   readonly #waiting: Job[] = [];
   #team: Team;
   #active: Job | null = null;
   #end: HexmillError | null = null;
 
-  constructor(settings: TeamSettings) {
+  constructor(settings: EngineSettings) {
     this.#settings = { ...settings };
     this.#team = this.#newTeam();
+  }
+
+  /** The compiled module, once it is there. */
+  get module(): WebAssembly.Module | null {
+    return this.#team.module;
+  }
+
+  /** True once it was terminated. */
+  get ended(): boolean {
+    return this.#end !== null;
   }
 
   /** Waits until the first workers can work. */
@@ -135,8 +156,8 @@ export class Engine {
   /** Lets the call under way stop by itself for a moment, then replaces the workers. */
   async #stopWork(job: Job): Promise<void> {
     const team = this.#team;
-    team.interrupt();
-    if (team.busy && !(await team.idleWithin(GRACE))) this.#replace(new CancelledError());
+    const grace = team.interrupt() ? GRACE.asked : (this.#settings.grace ?? GRACE.unasked);
+    if (team.busy && !(await team.idleWithin(grace))) this.#replace(new CancelledError());
     this.#release(job);
   }
 
@@ -165,9 +186,16 @@ export class Engine {
         return team.call(call, onProgress) as Promise<never>;
       },
       load: async (record) => {
-        const loaded = await desk.call('load', { surface: record.id, source: record.source });
-        this.#team.surfaces.add(record.id);
-        return loaded;
+        const team = await this.#readyTeam();
+        stop.throwIfAborted();
+        // Before the answer: a surface that nobody waits for any more is there to be dropped all the same.
+        team.surfaces.add(record.id);
+        try {
+          return await desk.call('load', { surface: record.id, source: record.source });
+        } catch (error) {
+          team.surfaces.delete(record.id);
+          throw error;
+        }
       },
       surface: async (record) => {
         const team = await this.#readyTeam();

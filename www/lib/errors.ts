@@ -31,7 +31,7 @@ export class OptionsError extends HexmillError {
   override name = 'OptionsError';
 }
 
-/** The mesh would become larger than allowed. */
+/** The mesh would become larger than `maxQuads` allow (code `too-many-quads`) or memory holds (`memory-exceeded`). */
 export class LimitError extends HexmillError {
   override name = 'LimitError';
 }
@@ -45,7 +45,10 @@ export class CancelledError extends HexmillError {
   }
 }
 
-/** The mesher failed: a bug, or the machine ran out of memory. The next call finds a fresh mesher. */
+/**
+ * The mesher failed: a bug, or memory ran out (code `out-of-memory`). Surfaces and meshes stay good: the next call finds
+ * a fresh mesher, which loads them again.
+ */
 export class InternalError extends HexmillError {
   override name = 'InternalError';
 }

@@ -4,12 +4,9 @@ import type { Platform } from './platform.js';
 
 export * from './exports.js';
 
-/** The pool takes no more threads than this by default: the work does not gain by more. */
-const MOST_THREADS = 16;
-
 // Bundlers find the worker and the modules by these very expressions.
 const browser: Platform = {
-  cores: () => Math.min(navigator.hardwareConcurrency || 1, MOST_THREADS),
+  cores: () => navigator.hardwareConcurrency || 1,
   sharesMemory: () => globalThis.crossOriginIsolated === true && typeof SharedArrayBuffer === 'function',
   wasmUrl: (file) =>
     file === 'mesher.wasm'

@@ -1,7 +1,8 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { Engine } from './engine.js';
-import type { Desk, SurfaceRecord } from './engine.js';
+import type { Desk, EngineSettings, SurfaceRecord } from './engine.js';
 import { HexmillError, InputError, InternalError, OptionsError } from './errors.js';
+import { refuseUnknown } from './known.js';
 import { inputFormat, plainOptions } from './options.js';
 import type {
   CallOptions,
@@ -19,8 +20,9 @@ import type { Estimate, MeshQuality, Metric, SurfaceInfo } from './results.js';
 /** How the mesher is to run. */
 export interface MesherOptions {
   /**
-   * Threads of the pool; by default as many as the processor runs at once. More than one needs shared memory, in
-   * browsers a cross-origin isolated page; elsewhere there is one thread.
+   * Threads of the pool, from 1 to {@link MOST_THREADS}; by default as many as the processor runs at once, at most 16,
+   * beyond which the work gains nothing. More than one needs shared memory, in browsers a cross-origin isolated page;
+   * elsewhere there is one thread.
    */
   threads?: number | undefined;
   /**
@@ -32,8 +34,21 @@ export interface MesherOptions {
   workerUrl?: string | URL | undefined;
 }
 
+/** The most threads that can be asked for. */
+export const MOST_THREADS = 64;
+
+/** Threads that are taken by default, at most. */
+const USUAL_THREADS = 16;
+
+/** An aborted estimate that cannot be asked to stop may go on for this long, in milliseconds: most end sooner by themselves. */
+const ESTIMATE_GRACE = 1000;
+
+/** Every option of a mesher by name: the compiler holds this to be complete. */
+const MESHER_OPTIONS: Readonly<Record<keyof MesherOptions, true>> = { threads: true, wasmUrl: true, workerUrl: true };
+
 /** Starts the workers of a mesher. */
 export async function startMesher(platform: Platform, options: MesherOptions): Promise<Mesher> {
+  refuseUnknown(options, Object.keys(MESHER_OPTIONS), 'option of a mesher');
   const threads = threadsFor(platform, options.threads);
   try {
     return await start(platform, options, threads);
@@ -49,37 +64,52 @@ async function start(platform: Platform, options: MesherOptions, threads: number
   const file: WasmFile = threads > 1 ? 'mesher-threads.wasm' : 'mesher.wasm';
   const { wasmUrl, workerUrl } = options;
   const url = (typeof wasmUrl === 'function' ? wasmUrl(file) : wasmUrl) ?? platform.wasmUrl(file);
-  const engine = new Engine({ platform, workerUrl, module: platform.resolve(url), threads });
+  const settings: EngineSettings = { platform, workerUrl, module: platform.resolve(url), pool: threads > 1 ? threads : 0 };
+  const engine = new Engine(settings);
   try {
     await engine.start();
   } catch (error) {
     engine.terminate(new InternalError('not-started', 'The mesher could not be started.'));
     throw error;
   }
-  return new Mesher(engine, threads);
+  const estimator = (): Engine =>
+    new Engine({
+      ...settings,
+      module: engine.module ?? settings.module,
+      pool: Math.min(settings.pool, 1),
+      grace: ESTIMATE_GRACE,
+    });
+  return new Mesher(engine, threads, estimator);
 }
 
 function threadsFor(platform: Platform, wanted: number | undefined): number {
-  if (wanted !== undefined && !(Number.isInteger(wanted) && wanted >= 1)) {
-    throw new OptionsError('threads-invalid', `threads is ${wanted}; give a whole number from 1.`);
+  if (wanted !== undefined && !(Number.isInteger(wanted) && wanted >= 1 && wanted <= MOST_THREADS)) {
+    throw new OptionsError('threads-invalid', `threads is ${wanted}; give a whole number from 1 to ${MOST_THREADS}.`);
   }
-  return platform.sharesMemory() ? (wanted ?? platform.cores()) : 1;
+  return platform.sharesMemory() ? (wanted ?? Math.min(platform.cores(), USUAL_THREADS)) : 1;
 }
 
-/** Meshes surfaces in workers. Calls are done one after the other, in the order in which they were made. */
+/**
+ * Meshes surfaces in workers. Calls are done one after the other, in the order in which they were made; estimates
+ * have a worker of their own, started with the first, so that they neither wait for a mesh nor hold it up.
+ */
 export class Mesher {
   /** Threads that compute. */
   readonly threads: number;
   readonly #engine: Engine;
-  /** Frees a surface in the worker when neither it nor a mesh made from it can be reached any more. */
+  readonly #newEstimator: () => Engine;
+  /** Estimates, and what does them once it has started. */
+  #estimator: { engine: Engine; ready: Promise<Engine> } | null = null;
+  /** Frees a surface in the workers when neither it nor a mesh made from it can be reached any more. */
   readonly #unreachable: FinalizationRegistry<number>;
   #surfaces = 0;
 
   /** @internal */
-  constructor(engine: Engine, threads: number) {
+  constructor(engine: Engine, threads: number, newEstimator: () => Engine) {
     this.#engine = engine;
+    this.#newEstimator = newEstimator;
     this.threads = threads;
-    this.#unreachable = new FinalizationRegistry((surface) => engine.drop(surface));
+    this.#unreachable = new FinalizationRegistry((surface) => this.#drop(surface));
   }
 
   /**
@@ -88,14 +118,21 @@ export class Mesher {
    * @throws {@link InputError} with the line at fault if it cannot be read.
    */
   async load(input: SurfaceInput, options: InputOptions & CallOptions = {}): Promise<Surface> {
-    const record: SurfaceRecord = { id: ++this.#surfaces, source: await sourceOf(input, options) };
-    const data = await this.#engine.run((desk) => desk.load(record), options);
-    this.#unreachable.register(record, record.id);
-    return new Surface(this, record, data);
+    refuseUnknown(options, LOAD_OPTIONS, 'option');
+    const record = await this.#newRecord(input, options);
+    try {
+      const data = await this.#engine.run((desk) => desk.load(record), options);
+      this.#unreachable.register(record, record.id);
+      return new Surface(this, record, data);
+    } catch (error) {
+      this.#drop(record.id);
+      throw error;
+    }
   }
 
   /**
-   * Tells how large a mesh will be, before the work.
+   * Tells how large a mesh will be, before the work and beside it: in a worker of its own, on one thread, with a copy
+   * of the surface.
    *
    * @throws {@link OptionsError}, {@link InputError} as `refineQuads` does.
    */
@@ -104,38 +141,53 @@ export class Mesher {
     options: QuadOptions & InputOptions & CallOptions = {},
   ): Promise<Estimate> {
     const { signal, onProgress, format, name, ...quadOptions } = options;
-    const plain = plainOptions(quadOptions);
-    const record = await this.#record(input, { format, name, signal });
-    return this.#engine.run(
-      async (desk) => desk.call('estimate', { surface: await desk.surface(record), options: plain }),
-      { signal, onProgress },
-    );
+    const plain = plainOptions(quadOptions, LOAD_OPTIONS);
+    const isLoaded = input instanceof Surface;
+    const record = isLoaded ? input.record(this) : await this.#newRecord(input, { format, name });
+    const engine = await this.#estimatingEngine();
+    try {
+      return await engine.run(
+        async (desk) => desk.call('estimate', { surface: await desk.surface(record), options: plain }),
+        { signal, onProgress },
+      );
+    } finally {
+      if (!isLoaded) engine.drop(record.id);
+    }
   }
 
   /**
    * Refines a surface to a conforming mesh of quads.
    *
    * @throws {@link InputError} if the surface cannot be refined, {@link OptionsError} if an option cannot be met,
-   * {@link LimitError} if there would be more quads than `maxQuads`, {@link CancelledError} once `signal` is aborted.
+   * {@link LimitError} if there would be more quads than `maxQuads` or than memory holds, {@link CancelledError} once
+   * `signal` is aborted.
    */
   async refineQuads(input: Surface | SurfaceInput, options: RefineOptions & InputOptions = {}): Promise<QuadMesh> {
     const { signal, onProgress, sizeFunction, format, name, ...quadOptions } = options;
-    const plain = plainOptions(quadOptions);
-    const record = await this.#record(input, { format, name, signal });
-    const data = await this.#engine.run(
-      async (desk) => {
-        const surface = await desk.surface(record);
-        if (sizeFunction) return refineBySize(desk, surface, plain, sizeFunction);
-        return desk.call('refine', { surface, options: plain });
-      },
-      { signal, onProgress },
-    );
-    return new QuadMesh(this.#engine, record, data);
+    const plain = plainOptions(quadOptions, [...LOAD_OPTIONS, 'sizeFunction']);
+    const own = input instanceof Surface ? null : await this.load(input, { format, name, signal });
+    const record = (own ?? (input as Surface)).record(this);
+    try {
+      const data = await this.#engine.run(
+        async (desk) => {
+          const surface = await desk.surface(record);
+          if (sizeFunction) return refineBySize(desk, surface, plain, sizeFunction);
+          return desk.call('refine', { surface, options: plain });
+        },
+        { signal, onProgress },
+      );
+      return new QuadMesh(this.#engine, record, data, own);
+    } catch (error) {
+      own?.dispose();
+      throw error;
+    }
   }
 
   /** Ends the workers. What is pending is rejected with a `HexmillError` of code `terminated`, as is what follows. */
   terminate(): void {
-    this.#engine.terminate(new HexmillError('terminated', 'The mesher was terminated.'));
+    const error = new HexmillError('terminated', 'The mesher was terminated.');
+    this.#engine.terminate(error);
+    this.#estimator?.engine.terminate(error);
   }
 
   /** The same as {@link Mesher.terminate}, for `using`. */
@@ -145,14 +197,30 @@ export class Mesher {
 
   /** @internal */
   free(record: SurfaceRecord): void {
-    this.#engine.drop(record.id);
+    this.#drop(record.id);
   }
 
-  async #record(input: Surface | SurfaceInput, options: InputOptions & CallOptions): Promise<SurfaceRecord> {
-    const surface = input instanceof Surface ? input : await this.load(input, options);
-    return surface.record(this);
+  #drop(surface: number): void {
+    this.#engine.drop(surface);
+    this.#estimator?.engine.drop(surface);
+  }
+
+  async #newRecord(input: SurfaceInput, options: InputOptions): Promise<SurfaceRecord> {
+    return { id: ++this.#surfaces, source: await sourceOf(input, options) };
+  }
+
+  /** The worker of estimates; where no more workers can be had, the one of meshes. */
+  #estimatingEngine(): Promise<Engine> {
+    if (!this.#estimator && !this.#engine.ended) {
+      const engine = this.#newEstimator();
+      this.#estimator = { engine, ready: engine.start().then(() => engine, () => this.#engine) };
+    }
+    return this.#estimator?.ready ?? Promise.resolve(this.#engine);
   }
 }
+
+/** What can be said of a call beside what the mesh is to be like. */
+const LOAD_OPTIONS: readonly (keyof (InputOptions & CallOptions))[] = ['format', 'name', 'signal', 'onProgress'];
 
 /** A surface that a mesher has loaded. It is freed when it is disposed of or no longer used. */
 export class Surface {
@@ -220,11 +288,14 @@ export class QuadMesh {
   readonly defects: readonly string[];
   readonly #engine: Engine;
   readonly #surface: SurfaceRecord;
+  /** The surface if it was loaded for this mesh alone. */
+  readonly #own: Surface | null;
 
   /** @internal */
-  constructor(engine: Engine, surface: SurfaceRecord, data: QuadData) {
+  constructor(engine: Engine, surface: SurfaceRecord, data: QuadData, own: Surface | null) {
     this.#engine = engine;
     this.#surface = surface;
+    this.#own = own;
     this.nodes = data.nodes;
     this.quads = data.quads;
     this.level = data.level;
@@ -250,6 +321,16 @@ export class QuadMesh {
       const surface = await desk.surface(this.#surface);
       return desk.call('export', { surface, mesh: this.#arrays(), format });
     }, options);
+  }
+
+  /** Frees what the worker keeps for it: a surface that was loaded for it alone. The mesh itself stays good. */
+  dispose(): void {
+    this.#own?.dispose();
+  }
+
+  /** The same as {@link QuadMesh.dispose}, for `using`. */
+  [Symbol.dispose](): void {
+    this.dispose();
   }
 
   #arrays(): QuadArrays {

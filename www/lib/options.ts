@@ -1,4 +1,10 @@
-import { OptionsError } from './errors.js';
+import { refuseUnknown } from './known.js';
+
+/**
+ * The most quads of a mesh, and the default of `maxQuads`: what 2 GiB of memory hold, which is all that browsers share
+ * between threads. The command line goes further.
+ */
+export const MOST_QUADS = 15_000_000;
 
 /** A point or a direction: x, y, z in model units. */
 export type Vector = readonly [number, number, number];
@@ -42,7 +48,7 @@ export interface QuadOptions {
   keepCoarse?: boolean | undefined;
   /** No element is refined beyond this level. Default 12. */
   maxLevels?: number | undefined;
-  /** Refuse a mesh of more quads than this. Default 64 million. */
+  /** Refuse a mesh of more quads than this. Default, and the most there can be, {@link MOST_QUADS}. */
   maxQuads?: number | undefined;
 }
 
@@ -56,7 +62,11 @@ export interface Progress {
 
 /** Options of every long call. */
 export interface CallOptions {
-  /** Aborting rejects the call at once with a `CancelledError` and frees the processor within 200 ms. */
+  /**
+   * Aborting rejects the call at once with a `CancelledError` and frees the processor within 200 ms: threads that
+   * share memory see a flag and stop; a single thread's worker cannot see it and is ended, as threads are that have not
+   * stopped after 100 ms. The next call starts fresh workers and loads its surface again by itself.
+   */
   signal?: AbortSignal | undefined;
   /** Called on this thread about 25 times a second. */
   onProgress?: ((progress: Progress) => void) | undefined;
@@ -88,7 +98,7 @@ export type OutputFormat = InputFormat | 'glb';
 
 /** Says what the bytes are. */
 export interface InputOptions {
-  /** The format; by default that of the extension of `name`, else `obj`. */
+  /** The format; by default that of the extension of `name`, else what the content is recognized as. */
   format?: InputFormat | undefined;
   /** The file's name, for its extension. */
   name?: string | undefined;
@@ -117,11 +127,11 @@ const EXTENSIONS: Readonly<Record<string, InputFormat>> = {
   medit: 'medit',
 };
 
-/** The format that `options` name, by themselves or by a file's extension; `obj` if they name none. */
-export function inputFormat({ format, name }: InputOptions): InputFormat {
+/** The format that `options` name, by themselves or by a file's extension; undefined if they name none. */
+export function inputFormat({ format, name }: InputOptions): InputFormat | undefined {
   if (format !== undefined) return format;
   const extension = name?.split('.').pop()?.toLowerCase() ?? '';
-  return EXTENSIONS[extension] ?? 'obj';
+  return Object.hasOwn(EXTENSIONS, extension) ? EXTENSIONS[extension] : undefined;
 }
 
 /** Every quad option by name: the compiler holds this to be complete. */
@@ -136,16 +146,30 @@ const QUAD_OPTIONS: Readonly<Record<keyof QuadOptions, true>> = {
   maxQuads: true,
 };
 
+/** The keys of each kind of region. */
+const SHAPE_KEYS: { readonly [K in Shape['kind']]: readonly Exclude<keyof Extract<Shape, { kind: K }>, 'kind'>[] } = {
+  box: ['min', 'max', 'rotation'],
+  sphere: ['center', 'radius'],
+  cylinder: ['from', 'to', 'radius'],
+  points: ['points', 'radius'],
+  surface: ['positions', 'triangles', 'distance'],
+};
+
 /**
- * `options` as the mesher takes them: plain data, without entries that are undefined.
+ * `options` as the mesher takes them: plain data, without entries that are undefined. `besides` names what else the
+ * caller could have given.
  *
- * @throws {@link OptionsError} if one is unknown, as misspelt ones are.
+ * @throws {@link OptionsError} if a key is unknown, as misspelt ones are.
  */
-export function plainOptions(options: QuadOptions): QuadOptions {
-  const unknown = Object.keys(options).find((name) => !Object.hasOwn(QUAD_OPTIONS, name));
-  if (unknown !== undefined) {
-    const known = Object.keys(QUAD_OPTIONS).join(', ');
-    throw new OptionsError('option-unknown', `There is no option ${unknown}; there are ${known}.`);
-  }
+export function plainOptions(options: QuadOptions, besides: readonly string[] = []): QuadOptions {
+  refuseUnknown(options, [...Object.keys(QUAD_OPTIONS), ...besides], 'option');
+  if (Array.isArray(options.regions)) options.regions.forEach(refuseUnknownKeys);
   return Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined));
+}
+
+/** Kinds that are none and values that do not fit are for the mesher to refuse. */
+function refuseUnknownKeys(region: Region, index: number): void {
+  if (typeof region !== 'object' || region === null || !Object.hasOwn(SHAPE_KEYS, region.kind)) return;
+  const known = ['kind', ...SHAPE_KEYS[region.kind], 'size', 'level'];
+  refuseUnknown(region, known, `regions[${index}], a ${region.kind}: key`);
 }

@@ -6,7 +6,7 @@ import type { Estimate, MeshQuality, Metric, SurfaceInfo } from './results.js';
 
 /** A surface's source, kept by the calling thread so that a new worker can load it again. */
 export type SurfaceSource =
-  | { format: InputFormat; content: string | Uint8Array }
+  | { format: InputFormat | undefined; content: string | Uint8Array }
   | { nodes: Float64Array; offsets: Uint32Array | undefined; corners: Uint32Array };
 
 /** A loaded surface. */
@@ -69,8 +69,8 @@ export interface SharedControl {
 
 /** Messages to a worker. Its first is `start` for the one that meshes, `join` for the threads of its pool. */
 export type ToWorker =
-  /** Load the module, from its address if it is not compiled yet. `threads` is 1 for the one-thread module. */
-  | { type: 'start'; module: string | WebAssembly.Module; threads: number }
+  /** Load the module, from its address if it is not compiled yet. `pool`: threads to prepare for; 0: the one-thread module. */
+  | { type: 'start'; module: string | WebAssembly.Module; pool: number }
   | { type: 'join'; module: WebAssembly.Module; memory: WebAssembly.Memory }
   | { type: 'call'; id: number; call: Call }
   | { type: 'drop'; surface: number };

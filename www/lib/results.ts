@@ -17,6 +17,8 @@ export interface SurfaceInfo {
   euler: number;
   longestEdge: number;
   meanEdge: number;
+  /** A fingerprint of nodes and faces: of quads alone the same as that of a `QuadMesh`. */
+  hash: string;
   /** What is wrong with the surface, in words; at most the first hundred. */
   defects: string[];
 }

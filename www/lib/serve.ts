@@ -36,6 +36,18 @@ export function serve(host: Host): (message: ToWorker) => Promise<void> {
   };
 }
 
+const OUT_OF_MEMORY: Failure = {
+  kind: 'internal',
+  code: 'out-of-memory',
+  message: 'Memory ran out: ask for fewer quads, by a larger edge length or fewer levels. Nothing that was loaded is lost.',
+};
+
+/** Whether an instance died for want of memory: Rust then aborts without a panic, JavaScript refuses an array. */
+function wantsMemory(thrown: unknown): boolean {
+  if (thrown instanceof WebAssembly.RuntimeError) return /unreachable/i.test(thrown.message);
+  return thrown instanceof RangeError && /alloc|memory|length|size/i.test(thrown.message) && !/stack/i.test(thrown.message);
+}
+
 class ServedWorker {
   readonly #host: Host;
   #meshing: Meshing | null = null;
@@ -55,7 +67,7 @@ class ServedWorker {
   async take(message: ToWorker): Promise<void> {
     switch (message.type) {
       case 'start':
-        return this.#start(message.module, message.threads);
+        return this.#start(message.module, message.pool);
       case 'join':
         return this.#join(message.module, message.memory);
       case 'call':
@@ -70,16 +82,12 @@ class ServedWorker {
     if (this.#panic !== null) {
       return { kind: 'internal', code: 'panicked', message: `The mesher failed: ${this.#panic}` };
     }
-    if (thrown instanceof WebAssembly.RuntimeError || thrown instanceof RangeError) {
-      const message = `The mesher failed (${thrown.message}), most likely for want of memory: ask for fewer quads.`;
-      return { kind: 'internal', code: 'out-of-memory', message };
-    }
-    return failureOf(thrown);
+    return wantsMemory(thrown) ? OUT_OF_MEMORY : failureOf(thrown);
   }
 
-  async #start(source: string | WebAssembly.Module, threads: number): Promise<void> {
+  async #start(source: string | WebAssembly.Module, pool: number): Promise<void> {
     const module = typeof source === 'string' ? await this.#compile(source) : source;
-    const shared = threads > 1 ? await this.#startShared(module, threads) : await this.#startSingle(module);
+    const shared = pool > 0 ? await this.#startShared(module, pool) : await this.#startSingle(module);
     this.#host.post({ type: 'started', module, shared }, []);
   }
 
@@ -100,10 +108,10 @@ class ServedWorker {
     return null;
   }
 
-  async #startShared(module: WebAssembly.Module, threads: number): Promise<SharedControl> {
+  async #startShared(module: WebAssembly.Module, pool: number): Promise<SharedControl> {
     const { memory } = await initThreads({ module_or_path: module });
     threaded.reportPanics();
-    threaded.preparePool(threads);
+    threaded.preparePool(pool);
     // The classes differ in name only: both are made from the same Rust.
     this.#meshing = new Meshing(threaded as unknown as Bindings);
     return { memory, address: threaded.controlAddress() };

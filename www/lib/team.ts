@@ -13,7 +13,8 @@ export interface TeamSettings {
   workerUrl: string | URL | undefined;
   /** The module, or its address. */
   module: string | WebAssembly.Module;
-  threads: number;
+  /** Threads of the pool; 0: no pool, and the module of one thread. */
+  pool: number;
 }
 
 /** Shared memory is looked at this often for progress, in milliseconds. */
@@ -31,7 +32,7 @@ interface Pending {
 
 /** Workers that live and die together; one call at a time. */
 export class Team {
-  /** Numbers of the surfaces that the worker has. */
+  /** Numbers of the surfaces that the worker has or is loading. */
   readonly surfaces = new Set<number>();
   readonly #lead: WorkerHandle;
   readonly #helpers: WorkerHandle[] = [];
@@ -50,9 +51,9 @@ export class Team {
     this.ready = new Promise((resolve, reject) => {
       this.#starting = { resolve, reject };
     });
-    const { module, threads } = settings;
+    const { module, pool } = settings;
     this.#lead = this.#spawn(settings);
-    this.#lead.post({ type: 'start', module, threads });
+    this.#lead.post({ type: 'start', module, pool });
   }
 
   /** The compiled module, once the team is ready. */
@@ -103,9 +104,10 @@ export class Team {
     return idle;
   }
 
-  /** Asks the call under way to stop, if it can be asked. */
-  interrupt(): void {
+  /** Asks the call under way to stop; false if it cannot be asked, for want of shared memory. */
+  interrupt(): boolean {
     this.#control?.cancel();
+    return this.#control !== null;
   }
 
   /** Says whether the workers have work, so that an idle mesher does not keep Node from exiting. */
@@ -160,8 +162,8 @@ export class Team {
       return;
     }
     this.#control = new Control(shared);
-    this.#missing = settings.threads;
-    for (let thread = 0; thread < settings.threads; thread++) {
+    this.#missing = settings.pool;
+    for (let thread = 0; thread < settings.pool; thread++) {
       const helper = this.#spawn(settings);
       this.#helpers.push(helper);
       helper.post({ type: 'join', module, memory: shared.memory });

@@ -168,7 +168,13 @@ fn size_and_place_of_the_model_do_not_matter_within_the_numbers() {
 }
 
 /// Stops at the given call of `cancelled`.
-struct StopAt(std::sync::atomic::AtomicI64);
+pub struct StopAt(std::sync::atomic::AtomicI64);
+
+impl StopAt {
+    pub fn call(number: i64) -> Self {
+        Self(number.into())
+    }
+}
 
 impl Monitor for StopAt {
     fn progress(&self, _: Stage, _: f64) {}
@@ -182,7 +188,7 @@ fn work_can_be_cancelled_anywhere() {
     let (input, options) = (grid(6, 6), ball([3.0, 3.0, 0.0], 1.0, 6));
     let mut stopped = 0;
     for call in 0.. {
-        match refine_quads(&input, &options, &StopAt(call.into())) {
+        match refine_quads(&input, &options, &StopAt::call(call)) {
             Err(error) => {
                 assert_eq!(error, RefineError::Cancelled(Cancelled));
                 stopped += 1;
