@@ -161,6 +161,11 @@ impl MeshDrawable {
         self.set(gpu, Settings { coloured: colours.is_some().into(), ..self.settings });
     }
 
+    /// True if faces have colours of their own.
+    pub fn is_coloured(&self) -> bool {
+        self.settings.coloured != 0
+    }
+
     /// Shows or hides edges.
     pub fn set_edges(&mut self, gpu: &Gpu, shown: bool) {
         self.set(gpu, Settings { edges: shown.into(), ..self.settings });

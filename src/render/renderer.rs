@@ -195,7 +195,7 @@ impl Renderer {
             front: float(theme.front),
             back: float(theme.back),
             edge: float(theme.edge),
-            counts: [count, 0, 0, 0],
+            counts: [count, u32::from(self.mesh.as_ref().is_some_and(MeshDrawable::is_coloured)), 0, 0],
             regions,
         }
     }

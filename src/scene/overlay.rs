@@ -83,6 +83,8 @@ const PIVOT: f32 = 4.5;
 const TRIAD: f64 = 46.0;
 const TRIAD_ARM: f64 = 27.0;
 const TRIAD_LETTER: f64 = 3.6;
+/// A view that is free over fewer CSS pixels than this is too narrow for the triad beside what covers its lower end.
+const TRIAD_BESIDE: f64 = 640.0;
 
 fn with_alpha([r, g, b, _]: Rgba, alpha: u8) -> Rgba {
     [r, g, b, alpha]
@@ -183,7 +185,10 @@ const LETTERS: [&[[[f64; 2]; 2]]; 3] = [
 /// Three arms that show where x, y and z go; those that point away are drawn first.
 fn add_triad(out: &mut FrontBuffers, scene: &Scene, frame: &Frame, theme: &Theme) {
     let [right, up, forward] = scene.camera.axes();
-    let origin = DVec2::new(scene.style.covered[0] + TRIAD, scene.viewport.height - TRIAD);
+    let [side, end] = scene.style.covered;
+    let is_narrow = scene.viewport.width - 2.0 * side < TRIAD_BESIDE;
+    let floor = scene.viewport.height - if is_narrow { end } else { 0.0 };
+    let origin = DVec2::new(side + TRIAD, floor - TRIAD);
     let place = |pixel: DVec2| {
         let at: Point = scene.camera.point_at_depth_of(scene.camera.target(), pixel, scene.viewport);
         frame.scene(at)

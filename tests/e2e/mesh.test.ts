@@ -5,6 +5,10 @@ import type { Download } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { model, whole, Workbench } from './workbench.js';
 
+const EDGE_LENGTH = 'No edge longer than, model units';
+/** How far an estimate may be off: it follows a sample of large meshes, and leaves out what balance and templates add. */
+const ESTIMATE_ERROR = 0.15;
+
 describe.each([
   { name: 'a cross-origin isolated page', isolated: true },
   { name: 'a page that is not isolated', isolated: false },
@@ -32,11 +36,22 @@ describe.each([
     expect(await bench.difference(before, await bench.picture())).toBeGreaterThan(0.03);
   });
 
-  test('the estimate follows the edge length', async () => {
-    const estimate = bench.page.locator('.estimate b');
-    const coarse = await estimate.innerText();
-    await bench.fill('No edge longer than, model units', '0.02');
-    await expect.poll(() => estimate.innerText()).not.toBe(coarse);
+  test('the estimate follows the edge length as the cells do', async () => {
+    const estimates: number[] = [];
+    for (const length of ['0.08', '0.04', '0.02']) {
+      await bench.fill(EDGE_LENGTH, length);
+      const estimate = await bench.estimate();
+      await bench.mesh();
+      const quads = await bench.figure('quads');
+      expect(estimate / quads, `${estimate} estimated, ${quads} made at ${length}`).toBeGreaterThan(1 - ESTIMATE_ERROR);
+      expect(estimate / quads, `${estimate} estimated, ${quads} made at ${length}`).toBeLessThan(1 + ESTIMATE_ERROR);
+      estimates.push(estimate);
+    }
+    const [coarse = 0, middle = 0, fine = 0] = estimates;
+    expect(middle).toBeGreaterThan(coarse);
+    // Half the edge length is up to four times the cells.
+    expect(fine / middle).toBeGreaterThan(1.5);
+    expect(fine / middle).toBeLessThan(4.5);
   });
 
   test('a region is added and dragged by its handle', async () => {
@@ -71,9 +86,26 @@ describe.each([
     expect(await bench.difference(before, await bench.picture())).toBeGreaterThan(0.01);
   });
 
-  test('the region is finer than the rest', async () => {
-    const levels = await bench.page.locator('.levels li').count();
-    expect(levels).toBeGreaterThan(1);
+  test('the region is finer by what it asks for, and the rest is not', async () => {
+    const region = await bench.page.evaluate(() => {
+      const [first] = window.hexmill.workbench.settings.value.regions;
+      if (first?.shape.kind !== 'sphere' || first.target.by !== 'size') throw new Error('no sphere with a size');
+      return { center: first.shape.center, radius: first.shape.radius, size: first.target.size };
+    });
+    const withRegion = await bench.cellsOf(region);
+    expect(withRegion.inside.cells).toBeGreaterThan(0);
+    expect(withRegion.inside.longest).toBeLessThanOrEqual(region.size);
+    await bench.page.getByRole('button', { name: 'Delete Sphere 1' }).click();
+    await bench.mesh();
+    const without = await bench.cellsOf(region);
+    // Each of its cells is longer than asked for by some level: split in four at least once.
+    expect(without.inside.longest).toBeGreaterThan(region.size);
+    expect(withRegion.inside.cells).toBeGreaterThan(3.9 * without.inside.cells);
+    expect(withRegion.farAway.cells).toBe(without.farAway.cells);
+    expect(withRegion.farAway.longest).toBe(without.farAway.longest);
+    await bench.page.keyboard.press('Control+z');
+    await bench.mesh();
+    expect(await bench.cellsOf(region)).toEqual(withRegion);
   });
 
   test('colours show quality and levels', async () => {
@@ -83,6 +115,10 @@ describe.each([
     expect(await bench.difference(plain, quality)).toBeGreaterThan(0.02);
     await bench.choice('Colour cells by', 'Level').check();
     expect(await bench.difference(quality, await bench.picture())).toBeGreaterThan(0.02);
+    const levels = await bench.page.evaluate(() => [...new Set(window.hexmill.workbench.result.value?.mesh.level)].sort().map(String));
+    expect(levels.length).toBeGreaterThan(1);
+    expect(await bench.page.locator('.legend .chip').allInnerTexts()).toEqual(levels);
+    expect(await bench.page.locator('.levels li > span:first-child').allInnerTexts()).toEqual(levels);
   });
 
   test('a brushed range of the histogram is what stays coloured', async () => {

@@ -1,6 +1,9 @@
 // What goes wrong is said beside what caused it; the rest goes on.
 
+import { readFileSync } from 'node:fs';
+import type { Page } from 'playwright-core';
 import { afterEach, describe, expect, test } from 'vitest';
+import { withLittleMemory } from '../fixtures/small-memory.js';
 import { model, Workbench } from './workbench.js';
 import type { Setup } from './workbench.js';
 
@@ -38,7 +41,30 @@ describe('a bad file', () => {
     const complaint = page.locator('[data-section=input] .complaint');
     await complaint.waitFor();
     expect(await complaint.innerText()).toMatch(/photo\.jpg/);
+    expect(await complaint.innerText()).toMatch(/JPEG/);
     expect(await complaint.innerText()).toMatch(/\.obj/);
+  });
+
+  test('of a known kind under another name is read', async () => {
+    const { page } = await open();
+    await bench?.open('helmet.dat', model('helmet.obj'));
+    expect(await bench?.fact('Faces')).toMatch(/58/);
+    expect(await page.locator('.complaint').count()).toBe(0);
+  });
+
+  test('is complained of in sight, wherever the column is scrolled to', async () => {
+    const { page } = await open({ link: '#example=pawn', context: { viewport: { width: 1024, height: 600 } } });
+    await page.locator('.file-name').waitFor();
+    await page.getByRole('button', { name: 'Add box' }).click();
+    await page.locator('.steps .scroll').evaluate((column) => column.scrollTo(0, column.scrollHeight));
+    await bench?.drop('bad.obj', 'v 0 0 0\nf 1 2 3\n');
+    const complaint = page.locator('[data-section=input] .complaint');
+    await complaint.waitFor();
+    await bench?.settle();
+    const [box, column] = [await complaint.boundingBox(), await page.locator('.steps .scroll').boundingBox()];
+    if (!box || !column) throw new Error('nothing to see');
+    expect(box.y).toBeGreaterThanOrEqual(column.y - 1);
+    expect(box.y + box.height).toBeLessThanOrEqual(column.y + column.height + 1);
   });
 });
 
@@ -53,13 +79,50 @@ test('a field with no number in it says so and changes nothing', async () => {
   expect(await field.inputValue()).toBe('0.05');
 });
 
-test('too many quads are refused before the work, with what to do', async () => {
+test('too many quads are foretold and refused before the work, with what to do', async () => {
   const { page } = await open({ link: '#example=car&levels=6&max-quads=10000' });
   await page.locator('.file-name').waitFor();
+  await expect.poll(() => page.locator('.estimate .fault').innerText()).toMatch(/6\.45\sM quads.*your limit of 10\sk/);
   await page.locator('#mesh').click();
   const complaint = page.locator('#step-mesh .complaint');
   await complaint.waitFor();
   expect(await complaint.innerText()).toMatch(/quads/);
+});
+
+test('more than memory holds is foretold and refused before the work, with what fits', async () => {
+  const { page } = await open({ link: '#example=car&levels=8' });
+  await page.locator('.file-name').waitFor();
+  await expect.poll(() => page.locator('.estimate .fault').innerText()).toMatch(/more than this page can hold, 15\sM/);
+  await page.locator('#mesh').click();
+  const complaint = page.locator('#step-mesh .complaint');
+  await complaint.waitFor();
+  expect(await complaint.getAttribute('data-code')).toBe('memory-exceeded');
+  expect(await complaint.innerText()).toMatch(/15000000/);
+});
+
+test('memory that runs out all the same is said in plain words, and nothing is lost', async () => {
+  const little = withLittleMemory(readFileSync(new URL('../../www/wasm/mesher/mesher.wasm', import.meta.url)), 512);
+  const body = Buffer.from(little);
+  const prepare = (fresh: Page): Promise<unknown> =>
+    fresh.route('**/mesher*.wasm', (route) => route.fulfill({ body, contentType: 'application/wasm' }));
+  const { page } = await open({ isolated: false, link: '#example=pawn&levels=1', prepare });
+  await page.locator('.file-name').waitFor();
+  await bench?.mesh();
+  const quads = await bench?.figure('quads');
+  await bench?.fill('Refine everything this many times', '5');
+  await page.locator('#mesh').click();
+  const complaint = page.locator('#step-mesh .complaint');
+  await complaint.waitFor();
+  expect(await complaint.getAttribute('data-code')).toBe('out-of-memory');
+  expect(await complaint.innerText()).toMatch(/Memory ran out: ask for fewer quads.*Nothing that was loaded is lost/);
+  expect(await page.locator('.file-name').innerText()).toBe('pawn.obj');
+  expect(await bench?.figure('quads')).toBe(quads);
+  const download = await bench?.export('OBJ, Wavefront');
+  expect(download?.suggestedFilename()).toBe('pawn.obj');
+  await bench?.fill('Refine everything this many times', '2');
+  await bench?.mesh();
+  expect(await bench?.figure('quads')).toBe(16 * 588);
+  expect(await complaint.count()).toBe(0);
 });
 
 test('without WebGL the page says so, meshes and exports', async () => {

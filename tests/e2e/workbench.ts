@@ -34,6 +34,13 @@ export function model(file: string): string {
   return readFileSync(new URL(file, MODELS), 'utf8');
 }
 
+/** Some cells of a mesh. */
+interface Cells {
+  cells: number;
+  /** The length of their longest edge. */
+  longest: number;
+}
+
 export class Workbench {
   readonly page: Page;
   /** Errors that the page did not catch. */
@@ -107,6 +114,34 @@ export class Workbench {
   /** A count of the result. */
   async figure(name: 'quads' | 'nodes'): Promise<number> {
     return whole(await this.page.locator(`[data-figure=${name}]`).innerText());
+  }
+
+  /** The estimate of the settings as they are now. */
+  async estimate(): Promise<number> {
+    await this.page.waitForFunction(() => window.hexmill.workbench.isEstimated.value);
+    return Number(await this.page.locator('.estimate [data-quads]').getAttribute('data-quads'));
+  }
+
+  /** Cells of the result with all nodes in a sphere, and those beyond three of its radii. */
+  async cellsOf(sphere: { center: readonly number[]; radius: number }): Promise<{ inside: Cells; farAway: Cells }> {
+    return this.page.evaluate(({ center, radius }) => {
+      const mesh = window.hexmill.workbench.result.value?.mesh;
+      if (!mesh) throw new Error('no mesh');
+      const { nodes, quads } = mesh;
+      const inside = { cells: 0, longest: 0 };
+      const farAway = { cells: 0, longest: 0 };
+      for (let quad = 0; quad < quads.length; quad += 4) {
+        const corners = Array.from(quads.subarray(quad, quad + 4), (node) => nodes.subarray(3 * node, 3 * node + 3));
+        const distance = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
+          Math.hypot((a[0] ?? 0) - (b[0] ?? 0), (a[1] ?? 0) - (b[1] ?? 0), (a[2] ?? 0) - (b[2] ?? 0));
+        const away = corners.map((corner) => distance(corner, center));
+        const place = Math.max(...away) < radius ? inside : Math.min(...away) > 3 * radius ? farAway : null;
+        if (!place) continue;
+        place.cells += 1;
+        place.longest = Math.max(place.longest, ...corners.map((corner, i) => distance(corner, corners[(i + 1) % 4] ?? corner)));
+      }
+      return { inside, farAway };
+    }, sphere);
   }
 
   /** A line of the facts about the input, such as "5,856 all triangles". */

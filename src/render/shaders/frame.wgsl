@@ -23,7 +23,7 @@ struct Frame {
     front: vec4<f32>,
     back: vec4<f32>,
     edge: vec4<f32>,
-    // x: how many regions there are.
+    // x: how many regions there are. y: 1 where the colours of faces mean something.
     counts: vec4<u32>,
     regions: array<Region, REGIONS>,
 }

@@ -89,7 +89,7 @@ fn edge_cover(sides: vec3<f32>, polygon: f32) -> f32 {
     let distance = max(sides, vec3<f32>(0.0)) / gradient;
     let cover = 1.0 - smoothstep(vec3<f32>(half_width - 0.5), vec3<f32>(half_width + 0.5), distance);
     let height = 1.0 / gradient;
-    let fade = smoothstep(vec3<f32>(1.5), vec3<f32>(9.0), height / frame.canvas.w);
+    let fade = smoothstep(vec3<f32>(2.0), vec3<f32>(14.0), height / frame.canvas.w);
     let shown = cover * max(fade, vec3<f32>(polygon));
     return max(shown.x, max(shown.y, shown.z));
 }
@@ -105,7 +105,8 @@ fn outside(solid: f32, p: vec3<f32>) -> f32 {
     return max(length(p.xy), abs(p.z)) - 1.0;
 }
 
-// The colour with what lies in a region tinted, and a line where the surface crosses a region's.
+// The colour with what lies in a region tinted, unless colours mean something, and a line where the surface crosses
+// a region's.
 fn mark_regions(position: vec3<f32>, plain: vec3<f32>) -> vec3<f32> {
     var colour = plain;
     for (var i = 0u; i < min(frame.counts.x, REGIONS); i++) {
@@ -114,7 +115,8 @@ fn mark_regions(position: vec3<f32>, plain: vec3<f32>) -> vec3<f32> {
         let pixels = depth / max(length(vec2<f32>(dpdx(depth), dpdy(depth))), 1e-9);
         let line = 1.0 - smoothstep(frame.canvas.z - 0.5, frame.canvas.z + 0.5, abs(pixels));
         let inside = 1.0 - smoothstep(-0.5, 0.5, pixels);
-        colour = mix(colour, region.colour_solid.rgb, max(0.16 * inside, 0.9 * line));
+        let tint = 0.16 * inside * (1.0 - f32(mesh.coloured));
+        colour = mix(colour, region.colour_solid.rgb, max(tint, 0.9 * line));
     }
     return colour;
 }

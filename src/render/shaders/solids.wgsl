@@ -1,4 +1,5 @@
-// Translucent surfaces of regions: clear where they face the eye, denser towards their silhouette.
+// Translucent surfaces of regions: clear where they face the eye, denser towards their silhouette, and nothing but
+// their silhouette over faces whose colours mean something.
 
 struct Varying {
     @builtin(position) clip: vec4<f32>,
@@ -20,5 +21,6 @@ fn vertex(
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let facing = abs(dot(normalize(in.normal), towards_eye(in.position)));
     let rim = pow(1.0 - facing, 3.0);
-    return vec4<f32>(in.colour.rgb, in.colour.a * (1.0 + 3.0 * rim));
+    let body = 1.0 - f32(frame.counts.y);
+    return vec4<f32>(in.colour.rgb, in.colour.a * (body + 3.0 * rim));
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 use hexmill::{
     io::{self, Format},
-    scene::{Axis, Projection, Scene, Surface, Viewport},
+    scene::{Axis, Projection, Scene, Style, Surface, Viewport},
     sizing::Shape,
 };
 
@@ -155,4 +155,18 @@ fn the_overlay_follows_the_selection() {
     assert_eq!(scene.front_buffers().discs.len(), front.discs.len() + 1, "the pivot shows while it turns");
     scene.release();
     assert_eq!(scene.front_buffers().discs.len(), front.discs.len());
+}
+
+#[test]
+fn the_triad_stands_above_what_covers_a_narrow_view() {
+    let lowest = |width: f64| {
+        let mut scene = Scene::default();
+        scene.viewport = Viewport { width, height: 700.0 };
+        scene.style = Style { covered: [292.0, 84.0], ..Style::default() };
+        let world = |p: glam::Vec3| scene.frame().world(p.as_dvec3());
+        let ends = scene.front_buffers().lines.into_iter().flat_map(|line| [line.from, line.to]);
+        ends.map(|p| scene.camera.pixel(world(p), scene.viewport).unwrap().y).fold(0.0, f64::max)
+    };
+    assert!(lowest(1024.0) < 700.0 - 84.0, "{}", lowest(1024.0));
+    assert!(lowest(1440.0) > 700.0 - 84.0, "{}", lowest(1440.0));
 }

@@ -32,12 +32,6 @@ export const WRITABLE: readonly FormatInfo<OutputFormat>[] = [
 /** For the file dialog. */
 export const ACCEPT = READABLE.map(({ extension }) => `.${extension}`).join(',');
 
-/** The format of a file by its name; undefined when its extension is none of ours. */
-export function formatOf(name: string): InputFormat | undefined {
-  const extension = name.slice(name.lastIndexOf('.') + 1).toLowerCase();
-  return READABLE.find((known) => known.extension === extension)?.format;
-}
-
 /** `model.obj` as `model`. */
 export function stem(name: string): string {
   return name.replace(/\.[^.]+$/, '');

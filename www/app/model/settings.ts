@@ -1,5 +1,6 @@
 /** What the page asks of the mesher: everything that undo, the link and the command line carry. */
 
+import { MOST_QUADS } from 'hexmill';
 import type { QuadOptions, Region as RegionOption } from 'hexmill';
 import type { ViewRegion } from '../view.js';
 
@@ -36,7 +37,7 @@ export const LIMITS = {
   levels: { min: 0, max: 12 },
   curvature: { min: 1, max: 90, usual: 15 },
   gradation: { min: 1.05, max: 2 },
-  maxQuads: { min: 1_000, max: 256_000_000 },
+  maxQuads: { min: 1_000, max: MOST_QUADS },
 } as const;
 
 export const DEFAULTS: Settings = {
@@ -47,7 +48,7 @@ export const DEFAULTS: Settings = {
   gradation: 2,
   keepCoarse: false,
   maxLevels: 12,
-  maxQuads: 16_000_000,
+  maxQuads: MOST_QUADS,
   regions: [],
 };
 

@@ -50,6 +50,18 @@ export function bytes(value: number): string {
   return `${significant(value / 1000 ** power, power === 0 ? 4 : 3)}${THIN_SPACE}${units[power]}`;
 }
 
+/** The stages of the work, as what is being done. */
+const DOING: Readonly<Record<string, string>> = {
+  refine: 'refining',
+  balance: 'balancing levels',
+  templates: 'joining levels',
+};
+
+/** What is being done in a stage of the work. */
+export function doing(stage: string): string {
+  return DOING[stage] ?? stage;
+}
+
 /** A duration in the unit that fits. */
 export function duration(milliseconds: number): string {
   if (milliseconds < 1000) return `${Math.round(milliseconds)}${THIN_SPACE}ms`;

@@ -8,7 +8,7 @@ import type { Estimate, OutputFormat, Mesher, QuadMesh, Surface } from 'hexmill'
 import { complaint } from './complaint.js';
 import type { Complaint } from './complaint.js';
 import type { Example } from './examples.js';
-import { formatOf, READABLE, stem, WRITABLE } from './formats.js';
+import { stem, WRITABLE } from './formats.js';
 import { History } from './history.js';
 import { debounced, Latest } from './latest.js';
 import { formatLink } from './link.js';
@@ -17,7 +17,7 @@ import { DEFAULTS, region, toOptions } from './settings.js';
 import type { Region, Settings, Shape, ShapeKind, Vec3 } from './settings.js';
 import { center, diagonal, extent, fault, newShape, tidy, translated } from './shape.js';
 import type { Bounds } from './shape.js';
-import { bytes, counted, duration, rounded } from './text.js';
+import { bytes, counted, doing, duration, rounded } from './text.js';
 
 /** The model that is loaded. */
 export interface Input {
@@ -56,7 +56,12 @@ export class Workbench {
   /** Id of the region that has handles. */
   readonly selected = signal<number | null>(null);
   readonly estimate = signal<Estimate | null>(null);
+  readonly #estimated = signal<Settings | null>(null);
+  /** Whether the estimate is of the settings as they now are. */
+  readonly isEstimated = computed(() => this.estimate.value !== null && this.#estimated.value === this.settings.value);
   readonly running = signal<Running | null>(null);
+  /** Milliseconds after which meshing was cancelled; null unless that was the last of it. */
+  readonly cancelled = signal<number | null>(null);
   readonly result = signal<Result | null>(null);
   /** What went wrong, beside what caused it. */
   readonly trouble = {
@@ -92,13 +97,13 @@ export class Workbench {
     return result !== null && result.input === this.input.value && result.settings === this.settings.value;
   });
 
-  readonly #mesher: Promise<Mesher>;
+  readonly mesher: Promise<Mesher>;
   readonly #history = new History<Settings>();
   readonly #work = new Latest();
   readonly #estimates = new Latest();
 
   constructor(mesher: Promise<Mesher>) {
-    this.#mesher = mesher;
+    this.mesher = mesher;
     mesher.then(
       (ready) => {
         this.threads.value = ready.threads;
@@ -121,9 +126,8 @@ export class Workbench {
   async load(name: string, content: () => Promise<ArrayBuffer>, example: Example | null = null, settings: Partial<Settings> = {}): Promise<void> {
     this.trouble.input.value = null;
     try {
-      if (!formatOf(name)) throw new Error(`This is none of the formats that are read: ${READABLE.map(({ extension }) => `.${extension}`).join(', ')}`);
       const surface = await this.#busy('reading', async (signal) => {
-        const mesher = await this.#mesher;
+        const mesher = await this.mesher;
         return await mesher.load(await content(), { name, signal });
       });
       if (surface === null) return;
@@ -162,6 +166,7 @@ export class Workbench {
     this.shows.value = 'input';
     this.selected.value = null;
     this.pickedPoint.value = null;
+    this.cancelled.value = null;
     this.trouble.mesh.value = null;
     this.trouble.output.value = null;
     this.#history.clear();
@@ -241,12 +246,14 @@ export class Workbench {
     const input = this.input.value;
     if (!input || this.fault.value) return this.#estimates.cancel();
     try {
-      const mesher = await this.#mesher;
-      const options = toOptions(this.settings.value);
+      const mesher = await this.mesher;
+      const settings = this.settings.value;
+      const options = toOptions(settings);
       const estimate = await this.#estimates.run((signal) => mesher.estimateQuads(input.surface, { ...options, signal }));
       if (!estimate) return;
       batch(() => {
         this.estimate.value = estimate;
+        this.#estimated.value = settings;
         this.trouble.estimate.value = null;
       });
       this.#remesh();
@@ -272,7 +279,7 @@ export class Workbench {
     const started = performance.now();
     try {
       const mesh = await this.#busy('meshing', async (signal, onProgress) => {
-        const mesher = await this.#mesher;
+        const mesher = await this.mesher;
         return await mesher.refineQuads(input.surface, { ...toOptions(settings), signal, onProgress });
       });
       if (mesh === null) return;
@@ -298,8 +305,10 @@ export class Workbench {
     if (!running) return;
     this.#work.cancel();
     this.running.value = null;
-    const reached = running.stage ? ` while ${running.stage}` : '';
-    this.log.add('info', `Cancelled ${running.what} after ${duration(performance.now() - running.since)}${reached}.`);
+    const spent = performance.now() - running.since;
+    if (running.what === 'meshing') this.cancelled.value = spent;
+    const reached = running.stage ? `, while ${doing(running.stage)}` : '';
+    this.log.add('info', `Cancelled ${running.what} after ${duration(spent)}${reached}.`);
   }
 
   /** The mesh as a file; null if it could not be written. */
@@ -332,6 +341,7 @@ export class Workbench {
     const own: Running = { what, stage: '', fraction: null, since: performance.now() };
     let shown: Running = own;
     this.cancel();
+    this.cancelled.value = null;
     this.running.value = own;
     try {
       return await this.#work.run((signal) =>

@@ -9,6 +9,7 @@ export function listen(page: Page): void {
   addEventListener('hashchange', () => page.openLink());
   followSettings(page);
   followSelection(page);
+  followTrouble(page);
 }
 
 function listenToDrops(page: Page): void {
@@ -62,5 +63,14 @@ function followSelection(page: Page): void {
   effect(() => {
     if (page.workbench.selected.value === null) return;
     requestAnimationFrame(() => document.querySelector('.regions .open')?.scrollIntoView({ block: 'nearest' }));
+  });
+}
+
+/** What went wrong comes into sight, wherever its column is scrolled to. */
+function followTrouble(page: Page): void {
+  const { input, estimate, mesh, output } = page.workbench.trouble;
+  effect(() => {
+    if (![input, estimate, mesh, output].some((trouble) => trouble.value)) return;
+    requestAnimationFrame(() => document.querySelector('.steps .complaint')?.scrollIntoView({ block: 'nearest' }));
   });
 }

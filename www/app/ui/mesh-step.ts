@@ -4,7 +4,8 @@ import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { complaintNote, toggle } from './controls.js';
 import type { Page } from './page.js';
-import { bytes, counted, roughCount } from '../model/text.js';
+import { MOST_QUADS } from 'hexmill';
+import { bytes, counted, doing, duration, roughCount } from '../model/text.js';
 import { LIVE_QUADS } from '../model/workbench.js';
 
 const IS_MAC = /Mac|iPhone|iPad/.test(navigator.platform);
@@ -24,7 +25,10 @@ export function meshStep(page: Page): TemplateResult {
           title=${`Make the mesh. Live: make it again after each change, up to ${roughCount(LIVE_QUADS)} quads.`}
           ?disabled=${!workbench.input.value || workbench.fault.value !== null} @click=${() => void workbench.mesh()}>
           <span>${workbench.isCurrent.value ? 'Meshed' : workbench.result.value ? 'Mesh again' : 'Mesh'}</span><kbd>${IS_MAC ? '⌘' : 'Ctrl'} ↵</kbd>
-        </button>`}`;
+        </button>`}
+    ${isMeshing || workbench.cancelled.value === null
+      ? nothing
+      : html`<p class="hint" data-cancelled>Cancelled after ${duration(workbench.cancelled.value)}.${workbench.result.value ? ' The mesh shown is the one from before.' : ''}</p>`}`;
 }
 
 function estimate({ workbench }: Page): TemplateResult | string {
@@ -34,7 +38,12 @@ function estimate({ workbench }: Page): TemplateResult | string {
   if (trouble) return html`<span class="fault">${trouble.text}</span>`;
   if (!guess) return workbench.input.value ? 'Estimating…' : 'Open a model to begin';
   const about = guess.exact ? '' : 'about ';
-  return html`${about}<b>${roughCount(guess.quads)}</b> quads<small>${counted(guess.levels, 'level')}, ${bytes(guess.bytes)}</small>`;
+  const { maxQuads } = workbench.settings.value;
+  if (guess.quads > maxQuads) {
+    const size = `${about}${roughCount(guess.quads)} quads, ${bytes(guess.bytes)}`;
+    return html`<span class="fault" data-quads=${guess.quads}>${size}: more than ${maxQuads < MOST_QUADS ? 'your limit of' : 'this page can hold,'} ${roughCount(maxQuads)}. Raise the edge length, or use fewer levels.</span>`;
+  }
+  return html`${about}<b data-quads=${guess.quads}>${roughCount(guess.quads)}</b> quads<small>${counted(guess.levels, 'level')}, ${bytes(guess.bytes)}</small>`;
 }
 
 function progress({ workbench }: Page): TemplateResult | typeof nothing {
@@ -42,7 +51,7 @@ function progress({ workbench }: Page): TemplateResult | typeof nothing {
   if (!running) return nothing;
   const percent = running.fraction === null ? null : Math.round(100 * running.fraction);
   return html`<div class="running">
-    <div class="running-text"><span>${running.stage || 'starting'}</span><span>${percent === null ? '' : `${percent} %`}</span></div>
+    <div class="running-text"><span>${running.stage ? doing(running.stage) : 'starting'}</span><span>${percent === null ? '' : `${percent} %`}</span></div>
     <progress aria-label="Progress of this stage" max="1" .value=${running.fraction ?? 0}></progress>
     <button class="button wide" id="cancel" type="button" @click=${() => workbench.cancel()}><span>Cancel</span><kbd>Esc</kbd></button>
   </div>`;

@@ -5,13 +5,13 @@ import type { TemplateResult } from 'lit-html';
 import { iconButton } from './controls.js';
 import { icon } from './icons.js';
 import type { Page } from './page.js';
-import { counted } from '../model/text.js';
+import { counted, doing } from '../model/text.js';
 
 export function status(page: Page): TemplateResult {
   const { workbench } = page;
   const running = workbench.running.value;
   const last = workbench.log.entries.value.at(-1);
-  const text = running ? `${capital(running.what)}${running.stage ? `: ${running.stage}` : '…'}` : page.said.value || last?.text || '';
+  const text = running ? `${capital(running.what)}${running.stage ? `: ${doing(running.stage)}` : '…'}` : page.said.value || last?.text || '';
   const threads = workbench.threads.value;
   return html`
     ${page.logOpen.value ? log(page) : nothing}

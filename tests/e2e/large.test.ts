@@ -1,0 +1,27 @@
+// A mesh of half a million cells: lighter while the camera moves, the same picture once it rests.
+
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { Workbench } from './workbench.js';
+
+let bench: Workbench;
+beforeAll(async () => {
+  bench = await Workbench.open({ link: '#example=pawn&levels=5' });
+  await bench.page.getByRole('toolbar', { name: 'View' }).waitFor();
+  await bench.mesh();
+});
+afterAll(() => bench?.close());
+
+test('it moves at half the resolution and rests at the whole', async () => {
+  expect(await bench.figure('quads')).toBe(4 ** 5 * 588);
+  const canvas = bench.page.locator('#view canvas');
+  const width = (): Promise<number> => canvas.evaluate((element) => (element as HTMLCanvasElement).width);
+  const [whole, before] = [await width(), await bench.picture()];
+  await canvas.focus();
+  await bench.page.keyboard.press('ArrowLeft');
+  expect(await width()).toBe(Math.round(whole / 2));
+  await expect.poll(width).toBe(whole);
+  expect(await bench.difference(before, await bench.picture())).toBeGreaterThan(0.02);
+  await bench.page.keyboard.press('ArrowRight');
+  await expect.poll(width).toBe(whole);
+  expect(await bench.difference(before, await bench.picture())).toBeLessThan(0.001);
+});
