@@ -29,14 +29,10 @@ impl Affordable {
     /// If they are none.
     pub fn read(options: JsValue) -> Result<Self, Failure> {
         let options: QuadOptions = serde_wasm_bindgen::from_value(options)?;
-        let is_lowered = options.max_quads > MOST_QUADS;
-        let max_quads = options.max_quads.min(MOST_QUADS);
-        // Limits out of range are refused with the other options.
-        let is_possible = options.max_quads <= QuadOptions::MOST_QUADS;
-        Ok(Self {
-            options: if is_possible { QuadOptions { max_quads, ..options } } else { options },
-            is_lowered,
-        })
+        // Limits out of range stay, to be refused with the other options.
+        let is_memory_s = (MOST_QUADS..=QuadOptions::MOST_QUADS).contains(&options.max_quads);
+        let max_quads = if is_memory_s { MOST_QUADS } else { options.max_quads };
+        Ok(Self { options: QuadOptions { max_quads, ..options }, is_memory_s })
     }
 
     /// What to tell of an error of the work with these options.

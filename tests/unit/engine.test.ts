@@ -8,9 +8,9 @@ import type { FakeWorker } from './fake-platform.js';
 
 const record: SurfaceRecord = { id: 7, source: { format: 'obj', content: 'v 0 0 0' } };
 
-async function startEngine({ pool = 0 } = {}) {
+async function startEngine({ pool = 0, reserve = false } = {}) {
   const { platform, workers } = fakePlatform();
-  const engine = new Engine({ platform, workerUrl: undefined, module: 'http://localhost/mesher.wasm', pool });
+  const engine = new Engine({ platform, workerUrl: undefined, module: 'http://localhost/mesher.wasm', pool, reserve });
   await engine.start();
   const worker = (index: number): FakeWorker => {
     const found = workers[index];
@@ -124,6 +124,29 @@ describe('cancelling', () => {
     await settle();
     worker(1).answer({ quads: 4 });
     expect(await next).toEqual({ quads: 4 });
+  });
+
+  it('has a worker in reserve where a call takes long and cannot be asked to stop', async () => {
+    const { engine, workers, worker } = await startEngine({ reserve: true });
+    const quick = engine.run((desk) => desk.call('finish', {}));
+    await settle();
+    worker(0).answer('quick');
+    await quick;
+    expect(workers).toHaveLength(1);
+    const abort = new AbortController();
+    const stuck = engine.run((desk) => desk.call('finish', {}), { signal: abort.signal });
+    await new Promise((later) => setTimeout(later, 80));
+    expect(workers).toHaveLength(2);
+    expect(worker(1).busy).toBe(false);
+    abort.abort();
+    await expect(stuck).rejects.toBeInstanceOf(CancelledError);
+    const next = engine.run((desk) => desk.call('finish', {}));
+    while (!worker(0).terminated) await settle();
+    await settle();
+    expect(workers).toHaveLength(2);
+    expect(worker(1).calls).toHaveLength(1);
+    worker(1).answer('next');
+    expect(await next).toBe('next');
   });
 
   it('asks threads that share memory to stop, and keeps them', async () => {

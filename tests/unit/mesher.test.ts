@@ -251,9 +251,10 @@ describe.each([1, 2, 4])('on %i threads', (threads) => {
     await new Promise((later) => setTimeout(later, PROMPT));
     // Of all threads of this process.
     const used = process.cpuUsage();
-    await new Promise((later) => setTimeout(later, 500));
+    await new Promise((later) => setTimeout(later, 1000));
     const { user, system } = process.cpuUsage(used);
-    expect((user + system) / 1000).toBeLessThan(150);
+    // A thread at work would take a second; what is left is the start of fresh workers.
+    expect((user + system) / 1000).toBeLessThan(250);
   });
 });
 

@@ -14,6 +14,9 @@ const GRACE = {
   unasked: 20,
 };
 
+/** A task that takes longer has fresh workers started in reserve, in milliseconds. */
+const RESERVE_DELAY = 50;
+
 /** A surface as the calling thread keeps it. */
 export interface SurfaceRecord {
   readonly id: number;
@@ -40,6 +43,8 @@ interface Job {
 export interface EngineSettings extends TeamSettings {
   /** Overrules how long a cancelled call that cannot be asked to stop is waited for. */
   grace?: number;
+  /** Has fresh workers started while a call takes its time, so that discarding those at work costs no start. */
+  reserve?: boolean;
 }
 
 /** Runs tasks on a team of workers. */
@@ -47,6 +52,7 @@ export class Engine {
   readonly #settings: EngineSettings;
   readonly #waiting: Job[] = [];
   #team: Team;
+  #reserve: Team | null = null;
   #active: Job | null = null;
   #end: HexmillError | null = null;
 
@@ -57,7 +63,7 @@ export class Engine {
 
   /** The compiled module, once it is there. */
   get module(): WebAssembly.Module | null {
-    return this.#team.module;
+    return this.#team?.module ?? null;
   }
 
   /** True once it was terminated. */
@@ -115,10 +121,12 @@ export class Engine {
     if (this.#end) return;
     this.#end = error;
     this.#team.dismiss(error);
+    this.#reserve?.dismiss(error);
     for (const job of [...(this.#active ? [this.#active] : []), ...this.#waiting.splice(0)]) job.fail(error);
   }
 
   #newTeam(): Team {
+    this.#settings.module = this.module ?? this.#settings.module;
     const team = new Team(this.#settings);
     // Whoever awaits the team hears of it; nobody may be awaiting it.
     team.ready.catch(() => {});
@@ -131,8 +139,15 @@ export class Engine {
     if (!job) return;
     this.#active = job;
     this.#team.setBusy(true);
+    if (this.#settings.reserve) setTimeout(() => this.#startReserve(job), RESERVE_DELAY);
     await job.run();
     this.#release(job);
+  }
+
+  #startReserve(job: Job): void {
+    if (this.#active !== job || this.#reserve?.alive) return;
+    this.#reserve = this.#newTeam();
+    this.#reserve.setBusy(false);
   }
 
   #release(job: Job): void {
@@ -164,8 +179,8 @@ export class Engine {
   #replace(error: HexmillError): void {
     this.#team.dismiss(error);
     if (this.#end) return;
-    this.#settings.module = this.#team.module ?? this.#settings.module;
-    this.#team = this.#newTeam();
+    this.#team = this.#reserve?.alive ? this.#reserve : this.#newTeam();
+    this.#reserve = null;
   }
 
   /** The workers, fresh ones if the last have died. */

@@ -65,7 +65,8 @@ async function start(platform: Platform, options: MesherOptions, threads: number
   const { wasmUrl, workerUrl } = options;
   const url = (typeof wasmUrl === 'function' ? wasmUrl(file) : wasmUrl) ?? platform.wasmUrl(file);
   const settings: EngineSettings = { platform, workerUrl, module: platform.resolve(url), pool: threads > 1 ? threads : 0 };
-  const engine = new Engine(settings);
+  // Threads that share memory stop when they are asked to.
+  const engine = new Engine({ ...settings, reserve: settings.pool === 0 });
   try {
     await engine.start();
   } catch (error) {

@@ -65,7 +65,7 @@ export interface CallOptions {
   /**
    * Aborting rejects the call at once with a `CancelledError` and frees the processor within 200 ms: threads that
    * share memory see a flag and stop; a single thread's worker cannot see it and is ended, as threads are that have not
-   * stopped after 100 ms. The next call starts fresh workers and loads its surface again by itself.
+   * stopped after 100 ms. The next call goes to fresh workers, which load its surface again by themselves.
    */
   signal?: AbortSignal | undefined;
   /** Called on this thread about 25 times a second. */
