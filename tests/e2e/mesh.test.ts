@@ -6,7 +6,9 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { model, whole, Workbench } from './workbench.js';
 
 const EDGE_LENGTH = 'No edge longer than, model units';
-/** How far an estimate may be off: it follows a sample of large meshes, and leaves out what balance and templates add. */
+/** Meshes of fewer quads are counted, not estimated. */
+const COUNTED = 60_000;
+/** How far an estimate of others may be off: it follows a sample, and leaves out what balance and templates add. */
 const ESTIMATE_ERROR = 0.15;
 
 describe.each([
@@ -36,22 +38,26 @@ describe.each([
     expect(await bench.difference(before, await bench.picture())).toBeGreaterThan(0.03);
   });
 
-  test('the estimate follows the edge length as the cells do', async () => {
+  test('the estimate foretells the cells of each edge length', async () => {
     const estimates: number[] = [];
-    for (const length of ['0.08', '0.04', '0.02']) {
+    for (const length of ['0.04', '0.01', '0.003']) {
       await bench.fill(EDGE_LENGTH, length);
       const estimate = await bench.estimate();
       await bench.mesh();
       const quads = await bench.figure('quads');
-      expect(estimate / quads, `${estimate} estimated, ${quads} made at ${length}`).toBeGreaterThan(1 - ESTIMATE_ERROR);
-      expect(estimate / quads, `${estimate} estimated, ${quads} made at ${length}`).toBeLessThan(1 + ESTIMATE_ERROR);
+      const isExact = await bench.page.evaluate(() => window.hexmill.workbench.estimate.value?.exact);
+      expect(isExact).toBe(quads < COUNTED);
+      const error = Math.abs(estimate / quads - 1);
+      expect(error, `${estimate} estimated, ${quads} made at ${length}`).toBeLessThanOrEqual(isExact ? 0 : ESTIMATE_ERROR);
       estimates.push(estimate);
     }
     const [coarse = 0, middle = 0, fine = 0] = estimates;
-    expect(middle).toBeGreaterThan(coarse);
-    // Half the edge length is up to four times the cells.
-    expect(fine / middle).toBeGreaterThan(1.5);
-    expect(fine / middle).toBeLessThan(4.5);
+    // Edges four times shorter, and 3.3 times: up to 16 times the cells, in steps of 4 from face to face.
+    expect(middle / coarse).toBeGreaterThan(4);
+    expect(middle / coarse).toBeLessThan(16.1);
+    expect(fine / middle).toBeGreaterThan(4);
+    expect(fine / middle).toBeLessThan(16.1);
+    await bench.fill(EDGE_LENGTH, '0.02');
   });
 
   test('a region is added and dragged by its handle', async () => {
@@ -79,6 +85,8 @@ describe.each([
   });
 
   test('the mesh is made, checked and drawn', async () => {
+    await bench.fill('Radius', '0.1');
+    await bench.fill('Inside, no edge longer than, model units', '0.005');
     const before = await bench.picture();
     await bench.mesh();
     expect(await bench.figure('quads')).toBeGreaterThan(4 * 588);
@@ -98,9 +106,10 @@ describe.each([
     await bench.page.getByRole('button', { name: 'Delete Sphere 1' }).click();
     await bench.mesh();
     const without = await bench.cellsOf(region);
-    // Each of its cells is longer than asked for by some level: split in four at least once.
-    expect(without.inside.longest).toBeGreaterThan(region.size);
-    expect(withRegion.inside.cells).toBeGreaterThan(3.9 * without.inside.cells);
+    // Cells up to 0.02 long are split in four twice to become shorter than 0.005.
+    expect(without.inside.longest).toBeGreaterThan(2 * region.size);
+    expect(withRegion.inside.cells).toBeGreaterThan(4 * without.inside.cells);
+    expect(without.farAway.cells).toBeGreaterThan(100);
     expect(withRegion.farAway.cells).toBe(without.farAway.cells);
     expect(withRegion.farAway.longest).toBe(without.farAway.longest);
     await bench.page.keyboard.press('Control+z');

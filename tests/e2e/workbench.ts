@@ -122,7 +122,7 @@ export class Workbench {
     return Number(await this.page.locator('.estimate [data-quads]').getAttribute('data-quads'));
   }
 
-  /** Cells of the result with all nodes in a sphere, and those beyond three of its radii. */
+  /** Cells of the result with all nodes in a sphere, and those beyond twice its radius. */
   async cellsOf(sphere: { center: readonly number[]; radius: number }): Promise<{ inside: Cells; farAway: Cells }> {
     return this.page.evaluate(({ center, radius }) => {
       const mesh = window.hexmill.workbench.result.value?.mesh;
@@ -135,7 +135,7 @@ export class Workbench {
         const distance = (a: ArrayLike<number>, b: ArrayLike<number>): number =>
           Math.hypot((a[0] ?? 0) - (b[0] ?? 0), (a[1] ?? 0) - (b[1] ?? 0), (a[2] ?? 0) - (b[2] ?? 0));
         const away = corners.map((corner) => distance(corner, center));
-        const place = Math.max(...away) < radius ? inside : Math.min(...away) > 3 * radius ? farAway : null;
+        const place = Math.max(...away) < radius ? inside : Math.min(...away) > 2 * radius ? farAway : null;
         if (!place) continue;
         place.cells += 1;
         place.longest = Math.max(place.longest, ...corners.map((corner, i) => distance(corner, corners[(i + 1) % 4] ?? corner)));
