@@ -1,8 +1,9 @@
-// Takes the picture of the page that the README shows, from the page itself.
+// Takes the pictures of the page that ship with the project, from the page itself: the one in the README, and a small
+// one of each example, on light and on dark ground.
 //
-//     npm run screenshot      (the page has to be built: npm run build)
+//     npm run screenshot      (the page has to be built: npm run build; then build it again)
 
-import { existsSync } from 'node:fs';
+import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 
 import { launchBrowser } from './browser.mjs';
@@ -11,32 +12,97 @@ import { serveFolder } from './static-server.mjs';
 
 const SITE = join(root, 'site');
 const PICTURE = join(root, 'docs', 'screenshot.png');
+const THUMBNAILS = join(root, 'www', 'app', 'thumbnails');
 
-/** Spot with its muzzle and a horn refined. */
-const LINK = '#example=spot&edge-length=0.06&region=sphere:0,0.62,-0.52,0.28:h=0.008&region=cylinder:0.1,0.75,-0.1,0.32,1.05,-0.02,0.14:level=4';
+/** Spot with its muzzle and a leg refined. */
+const LINK = '#example=spot&edge-length=0.06&region=sphere:0,0.42,-0.45,0.32:h=0.015&region=cylinder:-0.3,-0.5,-0.1,-0.3,-0.2,-0.1,0.17:level=4';
+
+/** Presses of an arrow key from the corner that the page starts with to the model's better side. */
+const TURN = { spot: 15, bunny: 6 };
+
+/** What is cut out of the view for a thumbnail, and its size, in pixels. */
+const CUT = { x: 80, y: 42, width: 940, height: 588 };
+const THUMBNAIL = { width: 256, height: 160 };
+
+/** Pixels above and below a model that is cut out. */
+const MARGIN = 60;
 
 /** Milliseconds that a step may take on a machine that draws in software. */
 const PATIENCE = 120_000;
+
+/** Milliseconds; longer than the camera flies and a message stays. */
+const REST = 1500;
 
 await main(async () => {
   if (!existsSync(SITE)) throw new Failure('There is no site/ to look at: npm run build');
   const server = await serveFolder(SITE);
   const browser = await launchBrowser();
   try {
-    const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
-    page.setDefaultTimeout(PATIENCE);
-    await page.goto(`${server.url}${LINK}`);
-    await page.getByRole('toolbar', { name: 'View' }).waitFor();
-    await page.locator('#mesh:enabled').click();
-    await page.locator('#mesh', { hasText: 'Meshed' }).waitFor();
-    await page.getByRole('radiogroup', { name: 'Colour cells by' }).getByRole('radio', { name: 'Level' }).check();
-    await page.getByRole('button', { name: 'See all (F)' }).click();
-    // The camera flies, and the status line tells the mesh.
-    await page.waitForTimeout(1500);
-    await page.screenshot({ path: PICTURE });
+    await takePicture(browser, server.url);
+    mkdirSync(THUMBNAILS, { recursive: true });
+    for (const scheme of ['light', 'dark']) await takeThumbnails(browser, server.url, scheme);
   } finally {
     await browser.close();
     await server.close();
   }
-  console.log('docs/screenshot.png');
+  console.log('docs/screenshot.png and www/app/thumbnails/ hold the pictures');
 });
+
+async function open(browser, address, viewport, colorScheme) {
+  const page = await browser.newPage({ viewport, colorScheme });
+  page.setDefaultTimeout(PATIENCE);
+  await page.goto(address);
+  await page.locator('#status .line').waitFor();
+  return page;
+}
+
+async function turn(page, presses) {
+  await page.locator('#view canvas').focus();
+  for (let press = 0; press < presses; press++) await page.keyboard.press('ArrowRight');
+}
+
+async function takePicture(browser, url) {
+  const page = await open(browser, `${url}${LINK}`, { width: 1440, height: 900 }, 'light');
+  await page.getByRole('toolbar', { name: 'View' }).waitFor();
+  await page.locator('#mesh:enabled').click();
+  await page.locator('#mesh', { hasText: 'Meshed' }).waitFor();
+  await page.getByRole('radiogroup', { name: 'Colour cells by' }).getByRole('radio', { name: 'Level' }).check();
+  await turn(page, TURN.spot);
+  await page.getByRole('button', { name: 'See all (F)' }).click();
+  await page.waitForTimeout(REST);
+  await page.screenshot({ path: PICTURE });
+  await page.close();
+}
+
+async function takeThumbnails(browser, url, scheme) {
+  const page = await open(browser, url, { width: 1100, height: 700 }, scheme);
+  const examples = await page.locator('.examples [data-example]').evaluateAll((all) => all.map(({ dataset }) => dataset.example));
+  await page.evaluate(() => {
+    window.hexmill.stepsFolded.value = true;
+    window.hexmill.inspectorFolded.value = true;
+  });
+  for (const example of examples) {
+    await page.evaluate((id) => window.hexmill.openExample(id), example);
+    await page.waitForFunction((id) => window.hexmill.workbench.input.value?.example?.id === id, example);
+    await turn(page, TURN[example] ?? 0);
+    await page.evaluate((margin) => {
+      window.hexmill.viewport.covered.value = [0, margin];
+      window.hexmill.viewport.frameAll();
+    }, MARGIN);
+    await page.waitForTimeout(REST);
+    const picture = await page.evaluate(thumbnail, { cut: CUT, size: THUMBNAIL });
+    writeFileSync(join(THUMBNAILS, `${example}-${scheme}.webp`), Buffer.from(picture, 'base64'));
+  }
+  await page.close();
+}
+
+/** Runs in the page: a part of the view, made small, as the Base64 of a WebP file. */
+async function thumbnail({ cut, size }) {
+  const view = await createImageBitmap(await window.hexmill.viewport.screenshot());
+  const paper = new OffscreenCanvas(size.width, size.height);
+  const pen = paper.getContext('2d');
+  pen.imageSmoothingQuality = 'high';
+  pen.drawImage(view, cut.x, cut.y, cut.width, cut.height, 0, 0, size.width, size.height);
+  const bytes = new Uint8Array(await (await paper.convertToBlob({ type: 'image/webp', quality: 0.85 })).arrayBuffer());
+  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
+}

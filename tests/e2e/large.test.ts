@@ -1,18 +1,21 @@
-// A mesh of half a million cells: lighter while the camera moves, the same picture once it rests.
+// A mesh of 400 thousand cells: lighter while the camera moves, the same picture once it rests.
 
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { Workbench } from './workbench.js';
 
+/** Milliseconds that a few frames may take where they are drawn in software. */
+const PATIENCE = 240_000;
+
 let bench: Workbench;
 beforeAll(async () => {
-  bench = await Workbench.open({ link: '#example=pawn&levels=5' });
+  bench = await Workbench.open({ link: '#example=car&levels=4' });
   await bench.page.getByRole('toolbar', { name: 'View' }).waitFor();
   await bench.mesh();
 });
 afterAll(() => bench?.close());
 
 test('it moves at half the resolution and rests at the whole', async () => {
-  expect(await bench.figure('quads')).toBe(4 ** 5 * 588);
+  expect(await bench.figure('quads')).toBe(4 ** 4 * 1575);
   const canvas = bench.page.locator('#view canvas');
   const width = (): Promise<number> => canvas.evaluate((element) => (element as HTMLCanvasElement).width);
   /** Presses a key, and tells how wide the canvas is while the camera moves. */
@@ -28,4 +31,4 @@ test('it moves at half the resolution and rests at the whole', async () => {
   expect(await press('ArrowRight')).toBe(Math.round(whole / 2));
   await expect.poll(width).toBe(whole);
   expect(await bench.difference(before, await bench.picture())).toBeLessThan(0.001);
-});
+}, PATIENCE);

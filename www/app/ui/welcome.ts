@@ -8,6 +8,13 @@ import type { Page } from './page.js';
 import { EXAMPLES } from '../model/examples.js';
 import { READABLE } from '../model/formats.js';
 
+/** The addresses of the examples' pictures, by example and scheme: see scripts/screenshot.mjs. */
+const THUMBNAILS = Object.fromEntries(
+  Object.entries(import.meta.glob<string>('../thumbnails/*.webp', { query: '?url', import: 'default', eager: true })).map(
+    ([path, url]) => [path.slice(path.lastIndexOf('/') + 1, -'.webp'.length), url],
+  ),
+);
+
 export function welcome(page: Page): TemplateResult | typeof nothing {
   const { workbench } = page;
   const engine = workbench.trouble.engine.value;
@@ -23,7 +30,8 @@ export function welcome(page: Page): TemplateResult | typeof nothing {
     <h2>Or start from an example</h2>
     <ul class="examples">
       ${EXAMPLES.map(
-        ({ id, label, faces, by, licence }) => html`<li><button type="button" title=${`${by}. ${licence}.`} @click=${() => page.openExample(id)}>
+        ({ id, label, faces, by, licence }) => html`<li><button type="button" title=${`${by}. ${licence}.`} data-example=${id} @click=${() => page.openExample(id)}>
+          <img src=${THUMBNAILS[`${id}-${page.theme.scheme.value}`] ?? nothing} alt="" width="256" height="160" />
           <b>${label}</b><small>${faces}</small></button></li>`,
       )}
     </ul>
