@@ -12,9 +12,9 @@ use serde::Serialize;
 use super::demand::{Demand, corner_quads, face_points, outline};
 use super::options::{QuadOptions, RefineError};
 use super::quad::refine_within;
-use crate::Silent;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, PolygonMesh};
+use crate::{Cancelled, Monitor};
 
 /// Results of no more quads than this are made and counted.
 const COUNTED: u64 = 60_000;
@@ -22,9 +22,8 @@ const COUNTED: u64 = 60_000;
 /// About how many elements of a level are looked at: their share that is wanted finer is then known to a percent.
 const SAMPLE: usize = 20_000;
 
-/// Peak memory of refinement over the size of the result, measured with `cargo bench --bench refine`: level
-/// arrays and the growing node array stand beside the result.
-const BYTES_PER_QUAD: u64 = 110;
+/// Elements are looked at in runs of this many; the monitor is asked before each run.
+const RUN: usize = 1 << 10;
 
 /// How large a mesh will be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -42,22 +41,32 @@ pub struct Estimate {
     pub exact: bool,
 }
 
+impl Estimate {
+    /// Peak memory of refinement over the size of the result, measured with `cargo bench --bench refine`: level
+    /// arrays and the growing node array stand beside the result.
+    pub const BYTES_PER_QUAD: u64 = 110;
+}
+
 /// Tells how large the result of [`refine_quads`](super::refine_quads) will be. The limit of quads in `options` is not held against the estimate.
 ///
 /// # Errors
-/// If the input is no valid surface or an option is out of range.
-pub fn estimate_quads(input: &PolygonMesh, options: &QuadOptions) -> Result<Estimate, RefineError> {
+/// If the input is no valid surface, an option is out of range, or the monitor stops it.
+pub fn estimate_quads(
+    input: &PolygonMesh,
+    options: &QuadOptions,
+    monitor: &dyn Monitor,
+) -> Result<Estimate, RefineError> {
     let small = QuadOptions { max_quads: COUNTED, ..options.clone() };
-    match refine_within(input, &small, &Silent) {
+    match refine_within(input, &small, monitor) {
         Ok(refined) => {
             let quads = refined.mesh.quads.len() as u64;
             let levels = refined.level.iter().copied().max().unwrap_or(0);
             let nodes = refined.mesh.positions.len() as u64;
-            Ok(Estimate { quads, nodes, bytes: quads * BYTES_PER_QUAD, levels, exact: true })
+            Ok(Estimate { quads, nodes, bytes: quads * Estimate::BYTES_PER_QUAD, levels, exact: true })
         }
         Err(RefineError::TooManyQuads { .. }) => {
-            let demand = Demand::new(input, options)?;
-            Ok(follow_sample(input, &demand, options))
+            let demand = Demand::new(input, options, monitor)?;
+            Ok(follow_sample(input, &demand, options, monitor)?)
         }
         Err(error) => Err(error),
     }
@@ -71,13 +80,14 @@ pub(super) fn refuse_absurd(
     input: &PolygonMesh,
     demand: &Demand,
     options: &QuadOptions,
+    monitor: &dyn Monitor,
 ) -> Result<(), RefineError> {
     let deepest = demand.deepest(options.max_levels);
     let most = input.corners.len() as f64 * 4_f64.powi(i32::from(deepest));
     if most <= options.max_quads as f64 {
         return Ok(());
     }
-    let Estimate { quads, levels: level, .. } = follow_sample(input, demand, options);
+    let Estimate { quads, levels: level, .. } = follow_sample(input, demand, options, monitor)?;
     let limit = options.max_quads;
     if quads as f64 > SAMPLING_ERROR * limit as f64 {
         return Err(RefineError::TooManyQuads { level, quads, limit });
@@ -93,19 +103,21 @@ struct Sampled {
 }
 
 /// Follows the trees from the base level down.
-fn follow_sample(input: &PolygonMesh, demand: &Demand, options: &QuadOptions) -> Estimate {
+fn follow_sample(
+    input: &PolygonMesh,
+    demand: &Demand,
+    options: &QuadOptions,
+    monitor: &dyn Monitor,
+) -> Result<Estimate, Cancelled> {
     let mut level = if options.keep_coarse { 0 } else { 1 };
     let wants = |level: u8, s: &Sampled| {
         level < options.max_levels && demand.wants(s.corners, outline(&s.corners).1, level, s.root)
     };
     let base_count = if options.keep_coarse { input.face_count() } else { input.corners.len() };
-    let wanted: Vec<(u32, usize)> = (0..input.face_count() as u32)
-        .into_par_iter()
-        .flat_map_iter(|f| {
-            let elements = base(input, f as usize, level).into_iter().enumerate();
-            elements.filter(|(_, s)| wants(level, s)).map(move |(k, _)| (f, k)).collect::<Vec<_>>()
-        })
-        .collect();
+    let wanted = found_in_runs(input.face_count(), monitor, |f, found| {
+        let elements = base(input, f, level).into_iter().enumerate();
+        found.extend(elements.filter(|(_, s)| wants(level, s)).map(|(corner, _)| (f, corner)));
+    })?;
     let mut quads = (base_count - wanted.len()) as f64;
     let kept = chosen(wanted.len(), level);
     let mut weight = wanted.len() as f64 / kept.len().max(1) as f64;
@@ -113,7 +125,7 @@ fn follow_sample(input: &PolygonMesh, demand: &Demand, options: &QuadOptions) ->
         .into_iter()
         .filter_map(|k| {
             let (face, corner) = wanted[k];
-            base(input, face as usize, level).into_iter().nth(corner)
+            base(input, face, level).into_iter().nth(corner)
         })
         .collect();
     while !parents.is_empty() {
@@ -121,13 +133,33 @@ fn follow_sample(input: &PolygonMesh, demand: &Demand, options: &QuadOptions) ->
         let all: Vec<Sampled> = parents.iter().flat_map(|s| split(&s.corners, s.root)).collect();
         let kept = chosen(all.len(), level);
         weight *= all.len() as f64 / kept.len() as f64;
-        let kept_count = kept.len();
-        parents = kept.into_iter().map(|k| all[k]).filter(|s| wants(level, s)).collect();
-        quads += weight * (kept_count - parents.len()) as f64;
+        parents = found_in_runs(kept.len(), monitor, |k, found| {
+            found.extend(Some(all[kept[k]]).filter(|s| wants(level, s)));
+        })?;
+        quads += weight * (kept.len() - parents.len()) as f64;
     }
     let quads = quads as u64;
-    let (nodes, bytes) = (quads.saturating_add(quads / 64), quads.saturating_mul(BYTES_PER_QUAD));
-    Estimate { quads, nodes, bytes, levels: level, exact: false }
+    let (nodes, bytes) = (quads.saturating_add(quads / 64), quads.saturating_mul(Estimate::BYTES_PER_QUAD));
+    Ok(Estimate { quads, nodes, bytes, levels: level, exact: false })
+}
+
+/// What `look` finds at each of `count` places, in their order.
+pub(super) fn found_in_runs<T: Copy + Send + Sync>(
+    count: usize,
+    monitor: &dyn Monitor,
+    look: impl Fn(usize, &mut Vec<T>) + Sync,
+) -> Result<Vec<T>, Cancelled> {
+    let runs: Vec<Vec<T>> = (0..count)
+        .into_par_iter()
+        .step_by(RUN)
+        .map(|first| {
+            monitor.proceed()?;
+            let mut found = Vec::new();
+            (first..(first + RUN).min(count)).for_each(|place| look(place, &mut found));
+            Ok(found)
+        })
+        .collect::<Result<_, _>>()?;
+    Ok(runs.concat())
 }
 
 /// About [`SAMPLE`] of the numbers below `count`, or all of them.

@@ -95,7 +95,7 @@ pub fn refine(surface: &Surface, options: JsValue) -> Result<Quads, Failure> {
 #[wasm_bindgen(js_name = estimateQuads)]
 pub fn estimate(surface: &Surface, options: JsValue) -> Result<JsValue, Failure> {
     let options: QuadOptions = serde_wasm_bindgen::from_value(options)?;
-    let estimate = on_pool(|| estimate_quads(&surface.mesh, &options))?;
+    let estimate = on_pool(|| estimate_quads(&surface.mesh, &options, &Listener))?;
     Ok(serde_wasm_bindgen::to_value(&estimate)?)
 }
 

@@ -50,7 +50,9 @@ impl Refinement {
         let options: QuadOptions = serde_wasm_bindgen::from_value(options)?;
         let input = Input { mesh: Arc::clone(&surface.mesh), options };
         let session = on_pool(|| {
-            Session::try_new(input, |input| QuadRefinement::new(&input.mesh, &input.options).map(Some))
+            Session::try_new(input, |input| {
+                QuadRefinement::new(&input.mesh, &input.options, &Listener).map(Some)
+            })
         })?;
         let mut refinement = Self { session, candidates: Candidates::default() };
         refinement.look()?;

@@ -1,11 +1,12 @@
 //! Estimates against the results that they foretell.
 
-use hexmill::Silent;
 use hexmill::geometry::Point;
 use hexmill::mesh::PolygonMesh;
 use hexmill::refine::{QuadOptions, RefineError, estimate_quads, refine_quads};
 use hexmill::sizing::{Region, Shape, Target};
+use hexmill::{Cancelled, Silent};
 
+use super::results::StopAt;
 use super::worlds::{cube, grid, mixed_strip};
 
 fn sphere(center: [f64; 3], radius: f64, target: Target) -> Region {
@@ -14,7 +15,7 @@ fn sphere(center: [f64; 3], radius: f64, target: Target) -> Region {
 
 /// The estimate's quads over the result's.
 fn ratio(input: &PolygonMesh, options: &QuadOptions) -> f64 {
-    let estimate = estimate_quads(input, options).expect("valid input");
+    let estimate = estimate_quads(input, options, &Silent).expect("valid input");
     let refined = refine_quads(input, options, &Silent).expect("valid input");
     assert_eq!(estimate.levels, *refined.level.iter().max().unwrap());
     if estimate.exact {
@@ -74,9 +75,29 @@ fn patterns_in_the_order_of_faces_do_not_mislead() {
 #[test]
 fn an_absurd_request_is_estimated_at_once_and_refused_before_it_is_made() {
     let options = QuadOptions { edge_length: Some(1e-8), max_levels: 27, ..QuadOptions::default() };
-    let estimate = estimate_quads(&grid(20, 20), &options).expect("an estimate");
+    let estimate = estimate_quads(&grid(20, 20), &options, &Silent).expect("an estimate");
     assert!(estimate.quads > 1_000_000_000_000_000 && !estimate.exact);
     let refusal = refine_quads(&grid(20, 20), &options, &Silent).expect_err("too large");
     assert!(matches!(refusal, RefineError::TooManyQuads { limit: 64_000_000, .. }), "{refusal}");
     assert_eq!(refusal.code(), "too-many-quads");
+}
+
+#[test]
+fn an_estimate_can_be_cancelled_anywhere() {
+    let region = sphere([10.0, 9.0, 0.0], 6.0, Target::Level(9));
+    let options = QuadOptions { regions: vec![region], ..QuadOptions::default() };
+    let mut stopped = 0;
+    for call in 0.. {
+        match estimate_quads(&grid(60, 60), &options, &StopAt::call(call)) {
+            Err(error) => {
+                assert_eq!(error, RefineError::Cancelled(Cancelled));
+                stopped += 1;
+            }
+            Ok(estimate) => {
+                assert!(!estimate.exact, "a sample was to be followed");
+                break;
+            }
+        }
+    }
+    assert!(stopped > 40, "asked only {stopped} times");
 }
