@@ -42,9 +42,10 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Peak memory of refinement over the size of the result, measured with `cargo bench --bench refine`: level
-    /// arrays and the growing node array stand beside the result.
-    pub const BYTES_PER_QUAD: u64 = 110;
+    /// Peak memory of refinement in bytes for each quad of the result: level arrays and the growing node array stand
+    /// beside it. `cargo bench --bench memory` counts 93 where everything is refined alike and 137 to 145 where a region
+    /// is; this is the greatest, rounded up.
+    pub const BYTES_PER_QUAD: u64 = 150;
 }
 
 /// Tells how large the result of [`refine_quads`](super::refine_quads) will be. The limit of quads in `options` is not held against the estimate.
