@@ -6,6 +6,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::DQuat;
+use hexmill::Silent;
 use hexmill::geometry::Point;
 use hexmill::mesh::{FaceId, NodeId, PolygonMesh};
 use hexmill::sizing::{Region, Shape, SizeField, SizeOptions, SizedElement, Target};
@@ -82,7 +83,7 @@ fn sizing(c: &mut Criterion) {
         {
             let region = Region { shape: shape.clone(), target };
             let options = SizeOptions { edge_length: None, curvature: None, gradation, regions: &[region] };
-            let field = SizeField::new(&input, options).expect("valid options");
+            let field = SizeField::new(&input, options, &Silent).expect("valid options");
             let wanted = |e: &&SizedElement| field.wants(e);
             let count = elements.iter().filter(wanted).count();
             assert!((elements.len() / 5..elements.len() * 2 / 3).contains(&count), "{name}: {count}");

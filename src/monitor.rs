@@ -1,5 +1,7 @@
 //! The one parameter through which long work tells how far it is and learns that it is to stop.
 
+use std::ops::Range;
+
 /// A stage of long work, in the order in which stages run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Stage(pub &'static str);
@@ -13,14 +15,29 @@ pub trait Monitor: Sync {
     /// within the steps that grow with the result.
     fn cancelled(&self) -> bool;
 
+    /// Stops the caller with `?` if the work was cancelled.
+    fn proceed(&self) -> Result<(), Cancelled> {
+        if self.cancelled() { Err(Cancelled) } else { Ok(()) }
+    }
+
     /// Reports progress, and stops the caller with `?` if the work was cancelled.
     fn checkpoint(&self, stage: Stage, fraction: f64) -> Result<(), Cancelled> {
-        if self.cancelled() {
-            return Err(Cancelled);
-        }
+        self.proceed()?;
         self.progress(stage, fraction);
         Ok(())
     }
+}
+
+/// Elements between two questions to the monitor: a few milliseconds of work.
+const BATCH: usize = 1 << 17;
+
+/// The numbers below `count` in ranges that are soon worked off; the monitor is asked before each.
+pub(crate) fn batches(
+    count: usize,
+    monitor: &dyn Monitor,
+) -> impl Iterator<Item = Result<Range<usize>, Cancelled>> + '_ {
+    let ranges = (0..count).step_by(BATCH).map(move |first| first..(first + BATCH).min(count));
+    ranges.map(|range| monitor.proceed().map(|()| range))
 }
 
 /// A monitor that listens to nothing and never stops the work.

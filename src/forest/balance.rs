@@ -26,9 +26,7 @@ impl QuadForest {
         loop {
             let mut changed = false;
             for depth in (0..self.levels.len().saturating_sub(2)).rev() {
-                if monitor.cancelled() {
-                    return Err(Cancelled);
-                }
+                monitor.proceed()?;
                 let level = &self.levels[depth];
                 let marked: Vec<u32> = (0..level.elements.len())
                     .into_par_iter()
@@ -36,7 +34,7 @@ impl QuadForest {
                     .map(|e| e as u32)
                     .collect();
                 let before = level.refined.len();
-                self.split(depth, &marked);
+                self.split(depth, &marked, monitor)?;
                 wanted.add(self, depth, before);
                 changed |= !marked.is_empty();
             }

@@ -22,6 +22,8 @@ use super::quadtree::{Level, LevelEdges};
 use crate::geometry::Point;
 use crate::mesh::topology::two_colouring;
 use crate::mesh::{EdgeId, Edges, FaceId, NodeId, PolygonMesh};
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor};
 
 /// Why a polygon mesh cannot be the base of a forest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -40,67 +42,90 @@ pub enum BaseError {
          edge nodes and others; refine without keeping them", .0[0], .0[1]
     )]
     OddCycle([NodeId; 2]),
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl QuadForest {
     /// The forest of level 1: every face of `input` refined once.
-    pub fn refined_once(input: &PolygonMesh) -> Self {
-        let edges = Edges::of_polygons(input);
-        let (mut positions, node_of) = used_nodes(input);
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn refined_once(input: &PolygonMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let edges = Edges::monitored(input, monitor)?;
+        let (mut positions, node_of) = used_nodes(input, monitor)?;
         let first_edge_node = positions.len();
-        positions.par_extend(edges.ends.par_iter().map(|ends| {
-            let [a, b] = ends.map(|n| input.positions[n.index()]);
-            (a + b) * 0.5
-        }));
+        positions.reserve_exact(edges.len() + input.face_count());
+        for batch in batches(edges.len(), monitor) {
+            positions.par_extend(edges.ends[batch?].par_iter().map(|ends| {
+                let [a, b] = ends.map(|n| input.positions[n.index()]);
+                (a + b) * 0.5
+            }));
+        }
         let first_face_node = positions.len();
-        positions.par_extend((0..input.face_count()).into_par_iter().map(|f| mean(input, f)));
+        for batch in batches(input.face_count(), monitor) {
+            positions.par_extend(batch?.into_par_iter().map(|f| mean(input, f)));
+        }
 
         let edge_node = |e: EdgeId| NodeId::new(first_edge_node + e.index());
-        let halves = edges.ends.par_iter().enumerate().map(|(e, ends)| {
-            let middle = edge_node(EdgeId::new(e));
-            ends.map(|end| [middle, node_of[end.index()]])
-        });
-        let mut ends = halves.collect::<Vec<_>>().into_flattened();
+        let mut ends = Vec::with_capacity(2 * edges.len() + input.corners.len());
+        for batch in batches(edges.len(), monitor) {
+            let halves = batch?.into_par_iter().map(|e| {
+                let middle = edge_node(EdgeId::new(e));
+                edges.ends[e].map(|end| [middle, node_of[end.index()]])
+            });
+            ends.append(&mut halves.collect::<Vec<_>>().into_flattened());
+        }
         let first_interior = ends.len();
 
         let mut elements = Vec::with_capacity(input.corners.len());
         let mut of_element = Vec::with_capacity(input.corners.len());
         let mut roots = Vec::with_capacity(input.corners.len());
-        for f in 0..input.face_count() {
-            let face_node = NodeId::new(first_face_node + f);
-            let (start, end) = (input.offsets[f] as usize, input.offsets[f + 1] as usize);
-            for here in start..end {
-                let before = if here == start { end - 1 } else { here - 1 };
-                let corner = input.corners[here];
-                let (edge, edge_before) = (edges.of_corner[here], edges.of_corner[before]);
-                let half = |e: EdgeId| EdgeId(2 * e.0 + u32::from(edges.ends[e.index()][1] == corner));
-                let interior = |k: usize| EdgeId::new(first_interior + k);
-                elements.push([node_of[corner.index()], edge_node(edge), face_node, edge_node(edge_before)]);
-                of_element.push([half(edge), interior(here), interior(before), half(edge_before)]);
-                ends.push([edge_node(edge), face_node]);
-                roots.push(FaceId::new(f));
+        for batch in batches(input.face_count(), monitor) {
+            for f in batch? {
+                let face_node = NodeId::new(first_face_node + f);
+                let (start, end) = (input.offsets[f] as usize, input.offsets[f + 1] as usize);
+                for here in start..end {
+                    let before = if here == start { end - 1 } else { here - 1 };
+                    let corner = input.corners[here];
+                    let (edge, edge_before) = (edges.of_corner[here], edges.of_corner[before]);
+                    let half = |e: EdgeId| EdgeId(2 * e.0 + u32::from(edges.ends[e.index()][1] == corner));
+                    let interior = |k: usize| EdgeId::new(first_interior + k);
+                    let corner = node_of[corner.index()];
+                    elements.push([corner, edge_node(edge), face_node, edge_node(edge_before)]);
+                    of_element.push([half(edge), interior(here), interior(before), half(edge_before)]);
+                    ends.push([edge_node(edge), face_node]);
+                    roots.push(FaceId::new(f));
+                }
             }
         }
         let base = Level::base(elements, roots, LevelEdges::base(of_element, ends));
-        Self { positions, levels: vec![base], base_level: 1 }
+        Ok(Self { positions, levels: vec![base], base_level: 1 })
     }
 
     /// The forest of level 0, whose base is the quads of `input` as they are.
-    pub fn coarse(input: &PolygonMesh) -> Result<Self, BaseError> {
+    ///
+    /// # Errors
+    /// If a face is no quad, the nodes cannot be two-coloured, or the monitor stops it.
+    pub fn coarse(input: &PolygonMesh, monitor: &dyn Monitor) -> Result<Self, BaseError> {
         let mut elements = as_quads(input)?;
-        let edges = Edges::of_polygons(input);
+        let edges = Edges::monitored(input, monitor)?;
         let is_edge_node = two_colouring(input.positions.len(), &edges)
             .map_err(|e| BaseError::OddCycle(edges.ends[e.index()]))?;
-        let (positions, node_of) = used_nodes(input);
+        let (positions, node_of) = used_nodes(input, monitor)?;
         let new = |n: NodeId| node_of[n.index()];
         let mut of_element: Vec<[EdgeId; 4]> =
             edges.of_corner.chunks_exact(4).map(|e| [e[0], e[1], e[2], e[3]]).collect();
-        for (element, sides) in elements.iter_mut().zip(&mut of_element) {
-            if is_edge_node[element[0].index()] {
-                element.rotate_left(1);
-                sides.rotate_left(1);
+        for batch in batches(elements.len(), monitor) {
+            let batch = batch?;
+            for (element, sides) in elements[batch.clone()].iter_mut().zip(&mut of_element[batch]) {
+                if is_edge_node[element[0].index()] {
+                    element.rotate_left(1);
+                    sides.rotate_left(1);
+                }
+                *element = element.map(new);
             }
-            *element = element.map(new);
         }
         let edge_node_first = |ends: &[NodeId; 2]| {
             let [a, b] = *ends;
@@ -113,9 +138,12 @@ impl QuadForest {
     }
 
     /// The quads of `input` as a forest that is never to be split.
-    pub fn untouched(input: &PolygonMesh) -> Result<Self, BaseError> {
+    ///
+    /// # Errors
+    /// If a face is no quad, or the monitor stops it.
+    pub fn untouched(input: &PolygonMesh, monitor: &dyn Monitor) -> Result<Self, BaseError> {
         let elements = as_quads(input)?;
-        let (positions, node_of) = used_nodes(input);
+        let (positions, node_of) = used_nodes(input, monitor)?;
         let elements: Vec<_> = elements.iter().map(|q| q.map(|n| node_of[n.index()])).collect();
         let roots = (0..elements.len()).map(FaceId::new).collect();
         Ok(Self {
@@ -138,10 +166,12 @@ fn as_quads(input: &PolygonMesh) -> Result<Vec<[NodeId; 4]>, BaseError> {
 }
 
 /// The positions of the nodes that some face has, in order, and the new number of each.
-fn used_nodes(input: &PolygonMesh) -> (Vec<Point>, Vec<NodeId>) {
+fn used_nodes(input: &PolygonMesh, monitor: &dyn Monitor) -> Result<(Vec<Point>, Vec<NodeId>), Cancelled> {
     let mut used = vec![false; input.positions.len()];
-    for n in &input.corners {
-        used[n.index()] = true;
+    for batch in batches(input.corners.len(), monitor) {
+        for n in &input.corners[batch?] {
+            used[n.index()] = true;
+        }
     }
     let mut positions = Vec::with_capacity(input.positions.len());
     let node_of = used
@@ -155,7 +185,7 @@ fn used_nodes(input: &PolygonMesh) -> (Vec<Point>, Vec<NodeId>) {
             id
         })
         .collect();
-    (positions, node_of)
+    Ok((positions, node_of))
 }
 
 /// The mean of the nodes of face `f`. Opposite corners are added first, as for every other element.

@@ -12,7 +12,9 @@ use rayon::prelude::*;
 
 use crate::geometry::Point;
 use crate::mesh::{EdgeId, FaceId, NodeId};
+use crate::monitor::batches;
 use crate::template::quad::{SPLIT, place};
+use crate::{Cancelled, Monitor};
 
 /// The elements of one level.
 #[derive(Debug, Default)]
@@ -108,11 +110,14 @@ impl QuadForest {
     }
 
     /// Splits the elements `marked` of `levels[depth]`, none of which is refined yet, into four each.
-    pub fn split(&mut self, depth: usize, marked: &[u32]) {
+    ///
+    /// # Errors
+    /// If the monitor stops it; then no element is split.
+    pub fn split(&mut self, depth: usize, marked: &[u32], monitor: &dyn Monitor) -> Result<(), Cancelled> {
         if marked.is_empty() {
-            return;
+            return Ok(());
         }
-        self.complete_edges_of(depth);
+        self.complete_edges_of(depth, monitor)?;
         if depth + 1 == self.levels.len() {
             self.levels.push(Level { siblings: 2, ..Level::default() });
         }
@@ -136,6 +141,7 @@ impl QuadForest {
             parent.is_refined[e as usize] = true;
         }
         parent.refined.extend_from_slice(marked);
+        Ok(())
     }
 
     /// Divides the edges of the `marked` elements that nothing divides yet and gives each element its face
@@ -161,60 +167,70 @@ impl QuadForest {
     }
 
     /// Makes all edges of the levels that have refined elements.
-    pub(crate) fn complete_edges(&mut self) {
+    pub(crate) fn complete_edges(&mut self, monitor: &dyn Monitor) -> Result<(), Cancelled> {
         for depth in 1..self.levels.len() {
             if !self.levels[depth].refined.is_empty() {
-                self.complete_edges_of(depth);
+                self.complete_edges_of(depth, monitor)?;
             }
         }
+        Ok(())
     }
 
-    /// Makes the edges of `levels[depth]` that the splits of its parents have called for.
-    fn complete_edges_of(&mut self, depth: usize) {
-        let Some(above) = depth.checked_sub(1) else { return };
+    /// Makes the edges of `levels[depth]` that the splits of its parents have called for. Stopped, it can be called
+    /// again: it goes on where it was.
+    fn complete_edges_of(&mut self, depth: usize, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        let Some(above) = depth.checked_sub(1) else { return Ok(()) };
         let (parents, children) = self.levels.split_at_mut(depth);
         let (parent, child) = (&mut parents[above], &mut children[0]);
         let Level { elements, edges, .. } = child;
 
-        let first_half = edges.ends.len();
-        let newly_split = &parent.edges.split[parent.edges.halved..];
-        for (k, edge) in newly_split.iter().enumerate() {
-            parent.edges.halves[edge.index()] = EdgeId::new(first_half + 2 * k);
-        }
-        let halves: Vec<[[NodeId; 2]; 2]> = newly_split
-            .par_iter()
-            .map(|edge| {
+        let first_split = parent.edges.halved;
+        let first_block = edges.of_element.len() / 4;
+        let (new_splits, new_blocks) =
+            (parent.edges.split.len() - first_split, parent.refined.len() - first_block);
+        edges.ends.reserve(2 * new_splits + 4 * new_blocks);
+        edges.of_element.reserve(4 * new_blocks);
+        for batch in batches(new_splits, monitor) {
+            let batch = batch?;
+            let newly_split = &parent.edges.split[first_split + batch.start..first_split + batch.end];
+            let first_half = edges.ends.len();
+            for (k, edge) in newly_split.iter().enumerate() {
+                parent.edges.halves[edge.index()] = EdgeId::new(first_half + 2 * k);
+            }
+            let halves = newly_split.par_iter().map(|edge| {
                 let middle = parent.edges.middle[edge.index()];
                 parent.edges.ends[edge.index()].map(|end| [middle, end])
-            })
-            .collect();
-        append(&mut edges.ends, halves.into_flattened());
-        parent.edges.halved = parent.edges.split.len();
-
-        let first_block = edges.of_element.len() / 4;
-        let first_interior = edges.ends.len();
-        let new_blocks = &parent.refined[first_block..];
-        let interiors: Vec<[[NodeId; 2]; 4]> = elements[4 * first_block..]
-            .par_chunks_exact(4)
-            .map(|block| std::array::from_fn(|i| [block[i][1], block[i][2]]))
-            .collect();
-        let of_element: Vec<[[EdgeId; 4]; 4]> = new_blocks
-            .par_iter()
-            .enumerate()
-            .map(|(k, &e)| {
-                let sides = parent.edges.of_element[e as usize];
-                let interior = |i: usize| EdgeId((first_interior + 4 * k + i) as u32);
-                std::array::from_fn(|i| {
-                    let before = (i + 3) % 4;
-                    let half = |side: usize| parent.edges.half(sides[side], i);
-                    [half(i), interior(i), interior(before), half(before)]
+            });
+            edges.ends.append(&mut halves.collect::<Vec<_>>().into_flattened());
+            parent.edges.halved = first_split + batch.end;
+        }
+        for batch in batches(new_blocks, monitor) {
+            let batch = batch?;
+            let (first, last) = (first_block + batch.start, first_block + batch.end);
+            let first_interior = edges.ends.len();
+            let interiors: Vec<[[NodeId; 2]; 4]> = elements[4 * first..4 * last]
+                .par_chunks_exact(4)
+                .map(|block| std::array::from_fn(|i| [block[i][1], block[i][2]]))
+                .collect();
+            let of_element: Vec<[[EdgeId; 4]; 4]> = parent.refined[first..last]
+                .par_iter()
+                .enumerate()
+                .map(|(k, &e)| {
+                    let sides = parent.edges.of_element[e as usize];
+                    let interior = |i: usize| EdgeId((first_interior + 4 * k + i) as u32);
+                    std::array::from_fn(|i| {
+                        let before = (i + 3) % 4;
+                        let half = |side: usize| parent.edges.half(sides[side], i);
+                        [half(i), interior(i), interior(before), half(before)]
+                    })
                 })
-            })
-            .collect();
-        append(&mut edges.ends, interiors.into_flattened());
-        append(&mut edges.of_element, of_element.into_flattened());
+                .collect();
+            edges.ends.extend_from_slice(interiors.as_flattened());
+            edges.of_element.extend_from_slice(of_element.as_flattened());
+        }
         edges.middle.resize(edges.ends.len(), UNDIVIDED);
         edges.halves.resize(edges.ends.len(), EdgeId::default());
+        Ok(())
     }
 }
 

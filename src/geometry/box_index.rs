@@ -7,10 +7,7 @@ use super::{Aabb, Point};
 
 type Entry = GeomWithData<Rectangle<[f64; 3]>, u32>;
 
-/// A thing may come out this share nearer than its box, because the two are computed differently.
-const ROUNDING: f64 = 1e-12;
-
-/// Finds, among many boxes, those that touch another one, and the nearest: an R-tree, packed once.
+/// Finds, among many boxes, those that touch another one: an R-tree, packed once.
 #[derive(Debug)]
 pub struct BoxIndex {
     tree: RTree<Entry>,
@@ -41,23 +38,6 @@ impl BoxIndex {
         let envelope = AABB::from_corners(query.min.to_array(), query.max.to_array());
         self.tree.locate_in_envelope_intersecting(envelope).map(|entry| entry.data as usize)
     }
-
-    /// The thing in a box that is nearest to `p`, and its distance squared; of several the one with the least number.
-    /// `distance_squared` tells of each thing how far it is; none is outside its box.
-    pub fn nearest(&self, p: Point, distance_squared: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
-        let mut best: Option<(usize, f64)> = None;
-        for (entry, to_box) in self.tree.nearest_neighbor_iter_with_distance_2(p.to_array()) {
-            let number = entry.data as usize;
-            if best.is_some_and(|(_, least)| to_box > least * (1.0 + ROUNDING)) {
-                break;
-            }
-            let squared = distance_squared(number);
-            if best.is_none_or(|(first, least)| squared < least || squared == least && number < first) {
-                best = Some((number, squared));
-            }
-        }
-        best
-    }
 }
 
 #[cfg(test)]
@@ -82,7 +62,7 @@ mod tests {
                 assert_eq!(found, expected, "at {at}, side {side}");
             }
         }
-        assert!(BoxIndex::new([]).nearest(Point::ZERO, |_| 0.0).is_none());
+        assert_eq!(BoxIndex::new([]).touching(&boxes[0]).count(), 0);
         assert_eq!(BoxIndex::new([Aabb::EMPTY]).touching(&boxes[0]).count(), 0);
     }
 
@@ -92,40 +72,5 @@ mod tests {
         let index = BoxIndex::new((0..100).map(|_| all));
         assert_eq!(index.touching(&Aabb { min: Point::ONE, max: Point::ONE }).count(), 100);
         assert_eq!(index.touching(&all).count(), 100);
-    }
-
-    #[test]
-    fn of_equally_near_points_the_first_is_nearest() {
-        let points: Vec<Point> =
-            (0..1000).map(|i| Point::new(f64::from(i % 7), f64::from(i % 5), 0.0)).collect();
-        let index = BoxIndex::of_points(&points);
-        for target in [Point::ZERO, Point::new(3.0, 2.0, 1.0), Point::new(2.5, 2.5, 0.0)] {
-            let distance = |i: usize| points[i].distance_squared(target);
-            let least = (0..1000).map(distance).fold(f64::INFINITY, f64::min);
-            let first = (0..1000).position(|i| distance(i) == least).unwrap();
-            assert_eq!(index.nearest(target, distance), Some((first, least)));
-        }
-    }
-
-    #[cfg(not(target_arch = "wasm32"))]
-    mod random {
-        use proptest::prelude::*;
-
-        use super::*;
-        use crate::geometry::closest_on_triangle;
-        use crate::geometry::samples::{point, points};
-
-        proptest! {
-            #[test]
-            fn nearest_triangles_agree_with_a_search_of_all(
-                triangles in prop::collection::vec(points::<3>(1.0), 1..60), p in point(2.0),
-            ) {
-                let index = BoxIndex::new(triangles.iter().map(Aabb::around));
-                let distance = |i: usize| closest_on_triangle(p, triangles[i]).distance_squared(p);
-                let (i, squared) = index.nearest(p, distance).unwrap();
-                prop_assert_eq!(squared, distance(i));
-                prop_assert!((0..triangles.len()).all(|k| distance(k) >= squared));
-            }
-        }
     }
 }

@@ -79,4 +79,23 @@ mod tests {
     fn no_triangles_have_no_nearest_point() {
         assert_eq!(NearestTriangle::new([]).closest_point(Point::ZERO), None);
     }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    mod random {
+        use proptest::prelude::*;
+
+        use super::*;
+        use crate::geometry::samples::{point, points};
+
+        proptest! {
+            #[test]
+            fn the_closest_point_agrees_with_a_search_of_all(
+                triangles in prop::collection::vec(points::<3>(1.0), 1..60), p in point(2.0),
+            ) {
+                let found = NearestTriangle::new(triangles.iter().copied()).closest_point(p).unwrap();
+                let distances = triangles.iter().map(|t| closest_on_triangle(p, *t).distance(p));
+                prop_assert_eq!(found.distance(p), distances.fold(f64::INFINITY, f64::min));
+            }
+        }
+    }
 }

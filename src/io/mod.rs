@@ -18,6 +18,7 @@ mod cell_view;
 mod document;
 mod error;
 mod format;
+mod name_budget;
 mod node_numbers;
 mod refusal;
 mod scalars;

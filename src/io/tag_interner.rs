@@ -2,6 +2,9 @@
 
 use std::collections::HashMap;
 
+use super::name_budget::NameBudget;
+use super::refusal::{code, refuse};
+use super::{Format, ReadError};
 use crate::mesh::{TagSet, Tags};
 
 /// The tags of the cells of a file, of any kind, in the file's order.
@@ -10,9 +13,15 @@ pub(super) struct CellTags {
     sets: Vec<TagSet>,
     index_of: HashMap<TagSet, u32>,
     of_cell: Vec<u32>,
+    budget: NameBudget,
 }
 
 impl CellTags {
+    /// No tags yet, for a file of `size` bytes.
+    pub fn new(size: usize) -> Self {
+        Self { budget: NameBudget::new(size), ..Self::default() }
+    }
+
     /// Tags from the number of each cell, as MEDIT and VTK have them: 0 is no tag. `named` are the sets
     /// that a number stands for where the file says more than the number.
     pub fn from_numbers(numbers: &[i64], named: &HashMap<i64, TagSet>) -> Self {
@@ -20,7 +29,7 @@ impl CellTags {
         let mut index_of_number = HashMap::new();
         for &number in numbers {
             let index = *index_of_number.entry(number).or_insert_with(|| {
-                tags.intern(named.get(&number).cloned().unwrap_or_else(|| TagSet {
+                tags.index(named.get(&number).cloned().unwrap_or_else(|| TagSet {
                     number: i32::try_from(number).ok().filter(|&n| n != 0),
                     ..TagSet::default()
                 }))
@@ -31,7 +40,19 @@ impl CellTags {
     }
 
     /// The index of `set`, which is added unless it is there.
-    pub fn intern(&mut self, set: TagSet) -> u32 {
+    ///
+    /// # Errors
+    /// If the names of all sets take more memory than the file is worth.
+    pub fn intern(&mut self, set: TagSet, format: Format) -> Result<u32, ReadError> {
+        if !self.index_of.contains_key(&set) && !self.budget.take(&set) {
+            let message = "the names of groups combine to more memory than a file of this size is worth — give cells \
+                           fewer or shorter names";
+            return Err(refuse(format, None, code::TOO_LARGE, message));
+        }
+        Ok(self.index(set))
+    }
+
+    fn index(&mut self, set: TagSet) -> u32 {
         if let Some(&index) = self.index_of.get(&set) {
             return index;
         }

@@ -20,8 +20,9 @@ use super::options::{RefineError, RefinedQuads};
 use crate::forest::{Level, QuadForest, UNDIVIDED, center, grow, midpoint};
 use crate::geometry::Point;
 use crate::mesh::{FaceId, NodeId, QuadMesh, Tags};
+use crate::monitor::batches;
 use crate::template::quad::{Cells, SPLIT, TEMPLATE_1, place};
-use crate::{Monitor, Stage};
+use crate::{Cancelled, Monitor, Stage};
 
 /// The stage that this file reports.
 const TEMPLATES: Stage = Stage("templates");
@@ -36,11 +37,11 @@ pub(super) fn conform(
     limit: u64,
     monitor: &dyn Monitor,
 ) -> Result<RefinedQuads, RefineError> {
-    forest.complete_edges();
+    forest.complete_edges(monitor)?;
     let QuadForest { mut positions, levels, base_level } = forest;
-    let active = active_nodes(&levels, positions.len());
+    let active = active_nodes(&levels, positions.len(), monitor)?;
     let transitions: Vec<Transition> =
-        levels.par_iter().map(|level| Transition::of(level, &active)).collect();
+        levels.iter().map(|level| Transition::of(level, &active, monitor)).collect::<Result<_, _>>()?;
     let (depth, quads) = (levels.len(), transitions.iter().map(Transition::quad_count).sum());
     if quads as u64 > limit {
         let level = base_level + (depth - 1) as u8;
@@ -49,8 +50,8 @@ pub(super) fn conform(
     let mut out = Leaves::with_capacity(quads);
     for (k, (mut level, transition)) in levels.into_iter().zip(&transitions).enumerate() {
         monitor.checkpoint(TEMPLATES, k as f64 / depth as f64)?;
-        divide_active_edges(&mut level, &active, &mut positions);
-        out.conform(level, transition, &mut positions);
+        divide_active_edges(&mut level, &active, &mut positions, monitor)?;
+        out.conform(level, transition, &mut positions, monitor)?;
         out.level.resize(out.quads.len(), base_level + k as u8);
     }
     let tags = tags.inherited(bytemuck::cast_slice(&out.parent));
@@ -59,16 +60,18 @@ pub(super) fn conform(
 }
 
 /// For each node: is it an edge node of a refined element?
-fn active_nodes(levels: &[Level], node_count: usize) -> Vec<bool> {
+fn active_nodes(levels: &[Level], node_count: usize, monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
     let mut active = vec![false; node_count];
     for level in levels {
-        for &e in &level.refined {
-            let [_, edge_node, _, other_edge_node] = level.elements[e as usize];
-            active[edge_node.index()] = true;
-            active[other_edge_node.index()] = true;
+        for batch in batches(level.refined.len(), monitor) {
+            for &e in &level.refined[batch?] {
+                let [_, edge_node, _, other_edge_node] = level.elements[e as usize];
+                active[edge_node.index()] = true;
+                active[other_edge_node.index()] = true;
+            }
         }
     }
-    active
+    Ok(active)
 }
 
 /// The elements of a level that are not refined, by what becomes of them.
@@ -95,24 +98,25 @@ impl Default for Stay {
 }
 
 impl Transition {
-    fn of(level: &Level, active: &[bool]) -> Self {
+    fn of(level: &Level, active: &[bool], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         if level.refined.is_empty() {
-            return Self { stay: Stay::All(level.elements.len()), ..Self::default() };
+            return Ok(Self { stay: Stay::All(level.elements.len()), ..Self::default() });
         }
         let all = (0..level.elements.len() as u32).into_par_iter();
         let left: Vec<u32> = all.filter(|&e| !level.is_refined[e as usize]).collect();
-        let select = |wanted: (bool, bool)| -> Vec<u32> {
+        let select = |wanted: (bool, bool)| -> Result<Vec<u32>, Cancelled> {
+            monitor.proceed()?;
             let edge_nodes = |e: u32| {
                 let [_, a, _, b] = level.elements[e as usize];
                 (active[a.index()], active[b.index()])
             };
-            left.par_iter().copied().filter(|&e| edge_nodes(e) == wanted).collect()
+            Ok(left.par_iter().copied().filter(|&e| edge_nodes(e) == wanted).collect())
         };
-        Self {
-            stay: Stay::Some(select((false, false))),
-            one: [select((true, false)), select((false, true))],
-            two: select((true, true)),
-        }
+        Ok(Self {
+            stay: Stay::Some(select((false, false))?),
+            one: [select((true, false))?, select((false, true))?],
+            two: select((true, true))?,
+        })
     }
 
     /// How many quads the elements become.
@@ -126,13 +130,23 @@ impl Transition {
 }
 
 /// Divides the edges at active nodes that no refined element divides.
-fn divide_active_edges(level: &mut Level, active: &[bool], positions: &mut Vec<Point>) {
-    for (ends, middle) in level.edges.ends.iter().zip(&mut level.edges.middle) {
-        if *middle == UNDIVIDED && active[ends[0].index()] {
-            *middle = NodeId::new(positions.len());
-            positions.push(midpoint(positions, *ends));
+fn divide_active_edges(
+    level: &mut Level,
+    active: &[bool],
+    positions: &mut Vec<Point>,
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
+    let edges = &mut level.edges;
+    for batch in batches(edges.ends.len(), monitor) {
+        let batch = batch?;
+        for (ends, middle) in edges.ends[batch.clone()].iter().zip(&mut edges.middle[batch]) {
+            if *middle == UNDIVIDED && active[ends[0].index()] {
+                *middle = NodeId::new(positions.len());
+                positions.push(midpoint(positions, *ends));
+            }
         }
     }
+    Ok(())
 }
 
 /// The quads of the result so far.
@@ -152,7 +166,13 @@ impl Leaves {
     }
 
     /// Takes the elements of a level that are not refined, by their templates.
-    fn conform(&mut self, level: Level, transition: &Transition, positions: &mut Vec<Point>) {
+    fn conform(
+        &mut self,
+        level: Level,
+        transition: &Transition,
+        positions: &mut Vec<Point>,
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
         let Transition { stay, one: [first, third], two } = transition;
         match stay {
             Stay::All(_) => {
@@ -162,16 +182,20 @@ impl Leaves {
                 } else {
                     self.quads.par_extend(&level.elements);
                 }
-                return;
+                return Ok(());
             }
             Stay::Some(elements) => {
                 self.parent.par_extend(elements.par_iter().map(|&e| level.root(e as usize)));
                 self.quads.par_extend(elements.par_iter().map(|&e| level.elements[e as usize]));
             }
         }
+        monitor.proceed()?;
         self.apply(&TEMPLATE_1[1], first, &level, positions);
+        monitor.proceed()?;
         self.apply(&TEMPLATE_1[3], third, &level, positions);
+        monitor.proceed()?;
         self.apply(&SPLIT, two, &level, positions);
+        Ok(())
     }
 
     /// Applies a template to `elements` of a level, giving each a face node.

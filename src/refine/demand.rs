@@ -3,8 +3,10 @@
 use rayon::prelude::*;
 
 use super::options::{QuadOptions, RefineError, validate, validate_digits};
+use crate::Monitor;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, PolygonMesh};
+use crate::monitor::batches;
 use crate::sizing::{SizeField, SizeOptions, SizedElement};
 
 /// The options, checked and made ready for many questions.
@@ -15,13 +17,21 @@ pub(super) struct Demand {
 }
 
 impl Demand {
-    pub fn new(input: &PolygonMesh, options: &QuadOptions) -> Result<Self, RefineError> {
+    pub fn new(
+        input: &PolygonMesh,
+        options: &QuadOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, RefineError> {
         validate(input, options)?;
         let &QuadOptions { edge_length, curvature, gradation, ref regions, .. } = options;
-        let field = SizeField::new(input, SizeOptions { edge_length, curvature, gradation, regions })?;
+        let field =
+            SizeField::new(input, SizeOptions { edge_length, curvature, gradation, regions }, monitor)?;
         let demand = Self { everywhere: options.levels.unwrap_or(0), field };
-        let edges = (0..input.face_count()).into_par_iter().map(|f| outline(&face_points(input, f)).1);
-        let longest = edges.reduce(|| 0.0, f64::max);
+        let mut longest = 0.0_f64;
+        for batch in batches(input.face_count(), monitor) {
+            let edges = batch?.into_par_iter().map(|f| outline(&face_points(input, f)).1);
+            longest = longest.max(edges.reduce(|| 0.0, f64::max));
+        }
         validate_digits(input, longest, demand.deepest(options.max_levels))?;
         Ok(demand)
     }

@@ -82,7 +82,7 @@ pub enum RefineError {
     InvalidInput(Vec<String>),
     /// The coarse quads cannot be kept.
     #[error(transparent)]
-    Base(#[from] BaseError),
+    Base(BaseError),
     /// An option has a value that cannot be met.
     #[error("{option} is {value}; {wanted}")]
     Option {
@@ -95,7 +95,25 @@ pub enum RefineError {
     },
     /// A size, a region or the curvature cannot be met.
     #[error(transparent)]
-    Sizing(#[from] SizingError),
+    Sizing(SizingError),
+    /// There is not one target for each candidate.
+    #[error("there are {given} targets for {wanted} candidates; give one for each")]
+    TargetCount {
+        /// How many were given.
+        given: usize,
+        /// How many candidates there are.
+        wanted: usize,
+    },
+    /// A target is no length.
+    #[error(
+        "the target of candidate {candidate} is {value}; give a length above 0, or infinity to leave it as it is"
+    )]
+    Target {
+        /// Which candidate, from 0.
+        candidate: usize,
+        /// Its target.
+        value: f64,
+    },
     /// The coordinates are too large or too close together for lengths, areas and volumes to be numbers.
     #[error(
         "the surface measures {size:e} and reaches {reach:e} from the origin; sizes from 1e-60 to 1e60 can be \
@@ -144,11 +162,32 @@ impl RefineError {
             Self::InvalidInput(_) => "surface-invalid",
             Self::Base(BaseError::NotAQuad { .. }) => "keep-coarse-needs-quads",
             Self::Base(BaseError::OddCycle(_)) => "keep-coarse-needs-two-colours",
+            Self::Base(BaseError::Cancelled(_)) => "cancelled",
             Self::Sizing(error) => error.code(),
+            Self::TargetCount { .. } => "target-count",
+            Self::Target { .. } => "target-out-of-range",
             Self::Option { .. } => "option-out-of-range",
             Self::Extent { .. } => "surface-extent",
             Self::TooFewDigits { .. } => "too-few-digits",
             Self::TooManyQuads { .. } => "too-many-quads",
+        }
+    }
+}
+
+impl From<BaseError> for RefineError {
+    fn from(error: BaseError) -> Self {
+        match error {
+            BaseError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Base(error),
+        }
+    }
+}
+
+impl From<SizingError> for RefineError {
+    fn from(error: SizingError) -> Self {
+        match error {
+            SizingError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Sizing(error),
         }
     }
 }

@@ -19,15 +19,14 @@ use rayon::prelude::*;
 
 use super::conform::conform;
 use super::demand::{Demand, corner_quads, face_points, outline};
-use super::estimate::refuse_absurd;
+use super::estimate::{found_in_runs, refuse_absurd};
 use super::options::{QuadOptions, RefineError, RefinedQuads};
 use crate::forest::QuadForest;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, NodeId, PolygonMesh};
+use crate::monitor::batches;
+use crate::sizing::limit;
 use crate::{Cancelled, Monitor, Stage};
-
-/// Elements are sized in runs of this many; the monitor is asked before each run.
-const RUN: usize = 1 << 14;
 
 /// Elements are split in batches of this many, so that the monitor is asked several times a second.
 const BATCH: usize = 1 << 20;
@@ -44,7 +43,7 @@ pub fn refine_quads(
     options: &QuadOptions,
     monitor: &dyn Monitor,
 ) -> Result<RefinedQuads, RefineError> {
-    refuse_absurd(input, &Demand::new(input, options)?, options, monitor)?;
+    refuse_absurd(input, &Demand::new(input, options, monitor)?, options, monitor)?;
     refine_within(input, options, monitor)
 }
 
@@ -54,7 +53,7 @@ pub(super) fn refine_within(
     options: &QuadOptions,
     monitor: &dyn Monitor,
 ) -> Result<RefinedQuads, RefineError> {
-    let mut refinement = QuadRefinement::new(input, options)?;
+    let mut refinement = QuadRefinement::new(input, options, monitor)?;
     while refinement.advance(None, monitor)? {}
     refinement.finish(monitor)
 }
@@ -85,10 +84,14 @@ impl<'a> QuadRefinement<'a> {
     /// Checks input and options and prepares the sizing.
     ///
     /// # Errors
-    /// If the input is no valid surface or an option is out of range.
-    pub fn new(input: &'a PolygonMesh, options: &'a QuadOptions) -> Result<Self, RefineError> {
-        let demand = Demand::new(input, options)?;
-        let forest = if options.keep_coarse { Some(QuadForest::coarse(input)?) } else { None };
+    /// If the input is no valid surface, an option is out of range, or the monitor stops it.
+    pub fn new(
+        input: &'a PolygonMesh,
+        options: &'a QuadOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, RefineError> {
+        let demand = Demand::new(input, options, monitor)?;
+        let forest = if options.keep_coarse { Some(QuadForest::coarse(input, monitor)?) } else { None };
         let deepest = demand.deepest(options.max_levels);
         Ok(Self { input, options, demand, deepest, forest, capped: 0 })
     }
@@ -109,15 +112,20 @@ impl<'a> QuadRefinement<'a> {
         Candidates { centers, longest }
     }
 
+    fn candidate_count(&self) -> usize {
+        self.forest.as_ref().map_or(self.input.face_count(), |forest| last_elements(forest).len())
+    }
+
     /// Refines the candidates that options or `targets` ask for; `targets` holds the greatest edge length allowed
-    /// for each candidate. Returns false when there was nothing to refine, and the work can be finished.
+    /// for each candidate, or infinity. Returns false when there was nothing to refine, and the work can be finished.
     ///
     /// # Errors
-    /// If the monitor stops it, or the mesh would become too large.
-    ///
-    /// # Panics
-    /// If `targets` is not as long as the candidates.
+    /// If there is not one target above 0 for each candidate, the monitor stops it, or the mesh would become too
+    /// large.
     pub fn advance(&mut self, targets: Option<&[f64]>, monitor: &dyn Monitor) -> Result<bool, RefineError> {
+        if let Some(targets) = targets {
+            validate_targets(targets, self.candidate_count())?;
+        }
         match &self.forest {
             None => self.refine_coarse(targets, monitor),
             Some(forest) => {
@@ -141,7 +149,7 @@ impl<'a> QuadRefinement<'a> {
     pub fn finish(self, monitor: &dyn Monitor) -> Result<RefinedQuads, RefineError> {
         let mut forest = match self.forest {
             Some(forest) => forest,
-            None => QuadForest::untouched(self.input)?,
+            None => QuadForest::untouched(self.input, monitor)?,
         };
         monitor.checkpoint(BALANCE, 0.0)?;
         forest.balance(monitor)?;
@@ -154,18 +162,22 @@ impl<'a> QuadRefinement<'a> {
     fn refine_coarse(&mut self, targets: Option<&[f64]>, monitor: &dyn Monitor) -> Result<bool, RefineError> {
         monitor.checkpoint(REFINE, 0.0)?;
         let input = self.input;
-        let wanted = (0..input.face_count()).into_par_iter().any(|f| {
+        let wants = |f: usize| {
             let points = face_points(input, f);
             let (_, longest) = outline(&points);
             exceeds(targets, f, longest) || self.wants_face(f, &points, longest)
-        });
+        };
+        let mut wanted = false;
+        for batch in batches(input.face_count(), monitor) {
+            wanted = wanted || batch?.into_par_iter().any(wants);
+        }
         let all_quad = input.is_all_quad();
         if all_quad && !(wanted && self.options.max_levels > 0) {
             self.capped = if wanted { input.face_count() } else { 0 };
             return Ok(false);
         }
         check_size(self.options, 1, input.corners.len() as u64)?;
-        self.forest = Some(QuadForest::refined_once(input));
+        self.forest = Some(QuadForest::refined_once(input, monitor)?);
         Ok(true)
     }
 
@@ -194,18 +206,7 @@ impl<'a> QuadRefinement<'a> {
             let (_, longest) = outline(&corners);
             exceeds(targets, e, longest) || self.demand.wants(corners, longest, number, level.root(e))
         };
-        let runs: Vec<Vec<u32>> = (0..level.elements.len())
-            .into_par_iter()
-            .step_by(RUN)
-            .map(|first| {
-                if monitor.cancelled() {
-                    return Err(Cancelled);
-                }
-                let run = first..(first + RUN).min(level.elements.len());
-                Ok(run.filter(|&e| wants(e)).map(|e| e as u32).collect())
-            })
-            .collect::<Result<_, _>>()?;
-        Ok(runs.concat())
+        found_in_runs(level.elements.len(), monitor, |e, found| found.extend(wants(e).then_some(e as u32)))
     }
 
     /// Splits elements of the deepest level, if the limit allows it.
@@ -219,7 +220,7 @@ impl<'a> QuadRefinement<'a> {
         for (k, batch) in marked.chunks(BATCH).enumerate() {
             let share = (k * BATCH) as f64 / marked.len() as f64;
             monitor.checkpoint(REFINE, from + share * (to - from))?;
-            self.forest.as_mut().expect("the forest that was marked").split(depth, batch);
+            self.forest.as_mut().expect("the forest that was marked").split(depth, batch, monitor)?;
         }
         Ok(!marked.is_empty())
     }
@@ -246,7 +247,18 @@ fn corners(positions: &[Point], element: &[NodeId; 4]) -> [Point; 4] {
     element.map(|n| positions[n.index()])
 }
 
-/// True if element `e` is longer than the caller's target for it.
+/// Refuses targets that are not one length above 0 for each candidate.
+fn validate_targets(targets: &[f64], candidates: usize) -> Result<(), RefineError> {
+    if targets.len() != candidates {
+        return Err(RefineError::TargetCount { given: targets.len(), wanted: candidates });
+    }
+    match targets.par_iter().position_first(|&target| target.is_nan() || target <= 0.0) {
+        Some(candidate) => Err(RefineError::Target { candidate, value: targets[candidate] }),
+        None => Ok(()),
+    }
+}
+
+/// True if element `e` is longer than the caller's target for it, by more than rounding.
 fn exceeds(targets: Option<&[f64]>, e: usize, longest: f64) -> bool {
-    targets.is_some_and(|targets| longest > targets[e])
+    targets.is_some_and(|targets| longest > limit(targets[e]))
 }

@@ -19,7 +19,9 @@ use rayon::prelude::*;
 
 use crate::geometry::Point;
 use crate::mesh::topology::EdgeUses;
-use crate::mesh::{EdgeId, Edges, PolygonMesh};
+use crate::mesh::{EdgeId, Edges, Faces, PolygonMesh};
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor};
 
 /// Degrees. A greater turn at one edge is a sharp edge of the design, not a curved surface cut into facets: exporters cut
 /// circles into at least 12 facets (30 degrees each), while chamfers and ribs meet at 45 degrees and more.
@@ -27,13 +29,16 @@ const SHARP: f64 = 40.0;
 
 /// The turn of the normal of each face, in degrees per unit of length.
 ///
+/// # Errors
+/// If the monitor stops it.
+///
 /// # Panics
 /// If the mesh has node ids out of range.
-pub(super) fn turn_per_length(mesh: &PolygonMesh) -> Vec<f64> {
-    let edges = Edges::of_polygons(mesh);
+pub(super) fn turn_per_length(mesh: &PolygonMesh, monitor: &dyn Monitor) -> Result<Vec<f64>, Cancelled> {
+    let edges = Edges::monitored(mesh, monitor)?;
     let uses = EdgeUses::of(&edges);
-    let normals: Vec<Point> = (0..mesh.face_count()).into_par_iter().map(|f| area_normal(mesh, f)).collect();
-    let turns = turns(mesh, &edges, &uses, &normals);
+    let normals = in_batches(mesh.face_count(), monitor, |f| area_normal(mesh, f))?;
+    let turns = turns(mesh, &edges, &uses, &normals, monitor)?;
     let face = |f: usize| {
         let corners = mesh.offsets[f] as usize..mesh.offsets[f + 1] as usize;
         let at = corners.map(|k| {
@@ -45,12 +50,31 @@ pub(super) fn turn_per_length(mesh: &PolygonMesh) -> Vec<f64> {
         });
         greatest_turn(at, normals[f])
     };
-    (0..mesh.face_count()).into_par_iter().map(face).collect()
+    in_batches(mesh.face_count(), monitor, face)
+}
+
+/// What `make` gives for each number below `count`.
+fn in_batches<T: Send>(
+    count: usize,
+    monitor: &dyn Monitor,
+    make: impl Fn(usize) -> T + Sync + Send,
+) -> Result<Vec<T>, Cancelled> {
+    let mut all = Vec::with_capacity(count);
+    for batch in batches(count, monitor) {
+        all.par_extend(batch?.into_par_iter().map(&make));
+    }
+    Ok(all)
 }
 
 /// The turn at each edge, in degrees; 0 where there is none that counts. Convex as seen from the side that is up in the
 /// edge's first face is positive.
-fn turns(mesh: &PolygonMesh, edges: &Edges, uses: &EdgeUses, normals: &[Point]) -> Vec<f64> {
+fn turns(
+    mesh: &PolygonMesh,
+    edges: &Edges,
+    uses: &EdgeUses,
+    normals: &[Point],
+    monitor: &dyn Monitor,
+) -> Result<Vec<f64>, Cancelled> {
     let mut creases: Vec<_> = mesh.features.creases.iter().map(|(ends, _)| sorted(*ends)).collect();
     creases.sort_unstable();
     let turn = |e: usize| {
@@ -59,7 +83,7 @@ fn turns(mesh: &PolygonMesh, edges: &Edges, uses: &EdgeUses, normals: &[Point]) 
         if creases.binary_search(&sorted(ends)).is_ok() {
             return 0.0;
         }
-        let [f, g] = [first, second].map(|corner| face_of(mesh, corner as usize));
+        let [f, g] = [first, second].map(|corner| mesh.face_of(corner as usize));
         let against = mesh.corners[first as usize] != mesh.corners[second as usize];
         // Faces that run along the edge the same way have opposite sides up.
         let (m, n) = (normals[f], if against { normals[g] } else { -normals[g] });
@@ -68,15 +92,11 @@ fn turns(mesh: &PolygonMesh, edges: &Edges, uses: &EdgeUses, normals: &[Point]) 
         let turn = libm::atan2(across.length(), m.dot(n)).to_degrees();
         if turn > SHARP { 0.0 } else { turn.copysign(across.dot(b - a)) }
     };
-    (0..edges.len()).into_par_iter().map(turn).collect()
+    in_batches(edges.len(), monitor, turn)
 }
 
 fn sorted<T: Ord>([a, b]: [T; 2]) -> [T; 2] {
     if a < b { [a, b] } else { [b, a] }
-}
-
-fn face_of(mesh: &PolygonMesh, corner: usize) -> usize {
-    mesh.offsets.partition_point(|&start| start as usize <= corner) - 1
 }
 
 /// The face's normal, as long as its area (Newell).

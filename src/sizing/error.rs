@@ -2,6 +2,7 @@
 
 use super::field::SizeOptions;
 use super::{Region, Shape, Target};
+use crate::Cancelled;
 use crate::geometry::Point;
 
 /// Why a size field cannot be made. Each message holds the value at fault and what to do.
@@ -26,6 +27,9 @@ pub enum SizingError {
         /// What is wrong with it.
         fault: RegionFault,
     },
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// What is wrong with a region.
@@ -87,6 +91,7 @@ impl SizingError {
             Self::EdgeLength(_) => "edge-length-out-of-range",
             Self::Curvature(_) => "curvature-out-of-range",
             Self::Gradation(_) => "gradation-out-of-range",
+            Self::Cancelled(_) => "cancelled",
             Self::Region { fault, .. } => match fault {
                 RegionFault::NotFinite { .. } => "region-not-finite",
                 RegionFault::Size(_) => "region-size-out-of-range",

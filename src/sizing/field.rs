@@ -8,6 +8,8 @@ use super::overlap::{Overlap, Probe};
 use super::{Region, Target};
 use crate::geometry::{BoxIndex, Point};
 use crate::mesh::{FaceId, PolygonMesh};
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor};
 
 /// An element that asks whether it is to be refined.
 #[derive(Clone, Copy, Debug)]
@@ -70,21 +72,32 @@ impl SizeField {
     /// Checks the options and prepares them.
     ///
     /// # Errors
-    /// If an option or a region is out of range.
+    /// If an option or a region is out of range, or the monitor stops it.
     ///
     /// # Panics
     /// If `input` has node ids out of range.
-    pub fn new(input: &PolygonMesh, options: SizeOptions<'_>) -> Result<Self, SizingError> {
+    pub fn new(
+        input: &PolygonMesh,
+        options: SizeOptions<'_>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, SizingError> {
         validate(&options)?;
         let regions: Vec<Graded> = options.regions.iter().map(Graded::new).collect();
-        let by_face = options.curvature.map_or(Vec::new(), |angle| limits_by_curvature(input, angle));
+        let by_face = match options.curvature {
+            Some(angle) => limits_by_curvature(input, angle, monitor)?,
+            None => Vec::new(),
+        };
         let edge_length = options.edge_length.map_or(f64::INFINITY, limit);
         let sizes = regions.iter().map(Graded::finest);
-        let children = (0..input.face_count()).into_par_iter().map(|f| longest_child_edge(input, f));
+        let mut longest = 0.0_f64;
+        for batch in batches(input.face_count(), monitor) {
+            let children = batch?.into_par_iter().map(|f| longest_child_edge(input, f));
+            longest = longest.max(children.reduce(|| 0.0, f64::max));
+        }
         Ok(Self {
             finest: by_face.iter().copied().chain(sizes).fold(edge_length, f64::min),
             deepest: regions.iter().map(Graded::deepest).max().unwrap_or(0),
-            longest: children.reduce(|| 0.0, f64::max),
+            longest,
             spread: if options.gradation < 2.0 { 1.0 / (options.gradation - 1.0) } else { 0.0 },
             index: (regions.len() > FEW).then(|| BoxIndex::new(regions.iter().map(|r| r.overlap.bounds))),
             edge_length,
@@ -134,7 +147,7 @@ impl SizeField {
 const ROUNDING: f64 = 1e-9;
 
 /// The greatest length that is not longer than `target`.
-fn limit(target: f64) -> f64 {
+pub(crate) fn limit(target: f64) -> f64 {
     target * (1.0 + ROUNDING)
 }
 
@@ -168,13 +181,17 @@ impl Graded {
 }
 
 /// The edge length along which each face turns by `angle` degrees; empty if the surface is flat all over.
-fn limits_by_curvature(input: &PolygonMesh, angle: f64) -> Vec<f64> {
-    let mut turns = turn_per_length(input);
+fn limits_by_curvature(
+    input: &PolygonMesh,
+    angle: f64,
+    monitor: &dyn Monitor,
+) -> Result<Vec<f64>, Cancelled> {
+    let mut turns = turn_per_length(input, monitor)?;
     if turns.iter().all(|&turn| turn == 0.0) {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     turns.iter_mut().for_each(|turn| *turn = limit(angle / *turn));
-    turns
+    Ok(turns)
 }
 
 /// The longest edge of the quads into which face `f` is split: half of its edges, or from their middles to the

@@ -83,7 +83,11 @@ impl From<RefineError> for Failure {
         let kind = match error {
             RefineError::Cancelled(_) => Kind::Cancelled,
             RefineError::NoFaces | RefineError::InvalidInput(_) | RefineError::Extent { .. } => Kind::Input,
-            RefineError::Base(_) | RefineError::Option { .. } | RefineError::Sizing(_) => Kind::Options,
+            RefineError::Base(_)
+            | RefineError::Option { .. }
+            | RefineError::Sizing(_)
+            | RefineError::TargetCount { .. }
+            | RefineError::Target { .. } => Kind::Options,
             RefineError::TooManyQuads { .. } | RefineError::TooFewDigits { .. } => Kind::Limit,
         };
         Self::new(kind, error.code(), &error)

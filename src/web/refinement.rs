@@ -51,7 +51,7 @@ impl Refinement {
         let input = Input { mesh: Arc::clone(&surface.mesh), affordable: Affordable::read(options)? };
         let session = on_pool(|| {
             Session::try_new(input, |input| {
-                QuadRefinement::new(&input.mesh, &input.affordable.options).map(Some)
+                QuadRefinement::new(&input.mesh, &input.affordable.options, &Listener).map(Some)
             })
         })?;
         let mut refinement = Self { session, candidates: Candidates::default() };

@@ -8,3 +8,5 @@ mod obj;
 mod refine;
 mod scene;
 mod sizing;
+#[path = "../fixtures/valid.rs"]
+mod valid;

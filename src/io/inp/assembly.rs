@@ -12,9 +12,12 @@ use crate::io::tag_interner::CellTags;
 use crate::io::{Document, Format, ReadError};
 use crate::mesh::TagSet;
 
-/// Nodes that the instances may have together for each byte of the file: a line makes an instance, so
-/// that a small file could ask for any amount of memory.
-const NODES_PER_BYTE: usize = 64;
+/// Nodes that the instances may have together for each byte of the file, and in any file: a line makes an
+/// instance, so that a small file could ask for any amount of memory.
+const NODES: (usize, usize) = (16, 1 << 20);
+
+/// Nodes of elements, and members of element sets, that the instances may have together in the same way.
+const PLACES: (usize, usize) = (64, 1 << 23);
 
 /// Everything in a file.
 pub(super) struct Model {
@@ -135,14 +138,15 @@ impl Model {
     /// The mesh of all instances; of all parts where there are none.
     pub fn into_document(self) -> Result<Document, ReadError> {
         let placed = self.placed();
-        let count: usize = placed.iter().map(|(_, instance)| self.parts[instance.part].positions.len()).sum();
-        if count > self.size.saturating_mul(NODES_PER_BYTE) {
-            let message = format!("the instances have {count} nodes together, more than this reader takes");
-            return Err(refuse(Format::Inp, None, code::TOO_LARGE, message));
-        }
+        let sum = |of: fn(&Part) -> usize| -> usize {
+            placed.iter().map(|(_, instance)| of(&self.parts[instance.part])).sum()
+        };
+        let count = sum(|part| part.positions.len());
+        self.refuse_beyond(NODES, count, "nodes")?;
+        self.refuse_beyond(PLACES, sum(Part::places), "nodes of elements and members of sets")?;
         let mut positions = Vec::with_capacity(count);
         let mut collector = CellCollector::new(Format::Inp, count, 0);
-        let mut tags = CellTags::default();
+        let mut tags = CellTags::new(self.size);
         for (index, instance) in placed {
             let part = &self.parts[instance.part];
             let first = positions.len() as i64;
@@ -151,6 +155,17 @@ impl Model {
         }
         let attributes = CellAttributes { tags: Some(tags), ..CellAttributes::default() };
         collector.finish(positions, attributes)
+    }
+
+    /// Refuses more than `most`: so many for each byte of the file, beside so many in any.
+    fn refuse_beyond(&self, most: (usize, usize), count: usize, what: &str) -> Result<(), ReadError> {
+        if count <= self.size.saturating_mul(most.0).saturating_add(most.1) {
+            return Ok(());
+        }
+        let message = format!(
+            "the instances have {count} {what} together, more than a file of this size should — place fewer instances"
+        );
+        Err(refuse(Format::Inp, None, code::TOO_LARGE, message))
     }
 
     /// What makes up the mesh, with the index of each that is an instance by name. Nodes outside of parts
@@ -179,7 +194,7 @@ fn collect(
     collector: &mut CellCollector,
     tags: &mut CellTags,
 ) -> Result<(), ReadError> {
-    let set_of_element = sets_of_elements(part, instance, tags);
+    let set_of_element = sets_of_elements(part, instance, tags)?;
     let mut order: Vec<u32> = (0..part.elements.len() as u32).collect();
     order.sort_by_key(|&element| part.elements[element as usize].number);
     let mut nodes = [0; 8];
@@ -198,7 +213,11 @@ fn collect(
 }
 
 /// For each element of the part the tag set that its element sets make.
-fn sets_of_elements(part: &Part, instance: Option<usize>, tags: &mut CellTags) -> Vec<u32> {
+fn sets_of_elements(
+    part: &Part,
+    instance: Option<usize>,
+    tags: &mut CellTags,
+) -> Result<Vec<u32>, ReadError> {
     // A combination of element sets is one more set than another combination; the first is of none.
     let mut combinations: Vec<(u32, u32)> = vec![(0, 0)];
     let mut of_element: Vec<u32> = vec![0; part.elements.len()];
@@ -217,11 +236,16 @@ fn sets_of_elements(part: &Part, instance: Option<usize>, tags: &mut CellTags) -
     }
     let mut tag_set: HashMap<u32, u32> = HashMap::new();
     for combination in &mut of_element {
-        *combination = *tag_set
-            .entry(*combination)
-            .or_insert_with(|| tags.intern(tag_set_of(*combination, &combinations, &part.sets)));
+        *combination = match tag_set.get(combination) {
+            Some(&set) => set,
+            None => {
+                let set = tags.intern(tag_set_of(*combination, &combinations, &part.sets), Format::Inp)?;
+                tag_set.insert(*combination, set);
+                set
+            }
+        };
     }
-    of_element
+    Ok(of_element)
 }
 
 /// The tag set of a combination of element sets, with the groups in the order of the file.

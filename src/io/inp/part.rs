@@ -236,6 +236,11 @@ impl Part {
         Ok(())
     }
 
+    /// How much there is to place with each instance: nodes of elements, element sets and their members.
+    pub fn places(&self) -> usize {
+        self.nodes.len() + self.sets.len() + self.sets.iter().map(|set| set.members.len()).sum::<usize>()
+    }
+
     /// The nodes of an element, as indices into the positions.
     pub fn nodes_of(&self, element: &Element) -> &[u32] {
         &self.nodes[element.first_node..element.first_node + usize::from(element.node_count)]

@@ -85,7 +85,7 @@ impl Elements {
             let dimension = file.int("the dimension of an entity")?;
             let entity = file.int("the number of an entity")?;
             let (kind, node_count) = element_type(file)?;
-            let set = groups.set_of_entity(dimension, entity);
+            let set = groups.set_of_entity(dimension, entity)?;
             let count = file.size("the number of elements of a block")?;
             for _ in 0..file.checked(count, LEAST_ELEMENT, "the number of elements of a block")? {
                 let number = file.size("the number of an element")?;
@@ -164,7 +164,7 @@ fn read_tags(
             group = tag;
         }
     }
-    Ok(groups.set_of_groups(dimension(kind), vec![group]))
+    groups.set_of_groups(dimension(kind), vec![group])
 }
 
 fn dimension(kind: CellKind) -> i64 {

@@ -1,13 +1,13 @@
 //! Physical groups of an MSH file, and the tag sets that they make.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::UNTAGGED;
 use super::file::MshFile;
-use crate::io::ReadError;
 use crate::io::refusal::{code, excerpt};
 use crate::io::tag_interner::CellTags;
 use crate::io::tag_numbers::set_of_labels;
+use crate::io::{Format, ReadError};
 use crate::mesh::TagSet;
 
 /// What the file says of physical groups. Entities and groups are known by dimension and number.
@@ -17,10 +17,17 @@ pub(super) struct Groups {
     of_entity: HashMap<(i64, i64), Vec<i64>>,
     /// The tags of the elements.
     pub tags: CellTags,
+    /// The sets that are made, by entity and by groups.
+    set_of_entity: HashMap<(i64, i64), u32>,
     set_of_groups: HashMap<(i64, Vec<i64>), u32>,
 }
 
 impl Groups {
+    /// No groups yet, for a file of `size` bytes.
+    pub fn new(size: usize) -> Self {
+        Self { tags: CellTags::new(size), ..Self::default() }
+    }
+
     /// Reads `$PhysicalNames` after its name.
     pub fn read_names(&mut self, file: &mut MshFile<'_>) -> Result<(), ReadError> {
         for _ in 0..file.tokens.count("the number of names", 6)? {
@@ -40,6 +47,7 @@ impl Groups {
 
     /// Reads `$Entities` after its name: only the groups of each entity matter.
     pub fn read_entities(&mut self, file: &mut MshFile<'_>) -> Result<(), ReadError> {
+        self.set_of_entity.clear();
         let mut counts = [0; 4];
         for count in &mut counts {
             *count = file.size("a number of entities")?;
@@ -66,19 +74,27 @@ impl Groups {
     }
 
     /// The tag set of the elements of an entity.
-    pub fn set_of_entity(&mut self, dimension: i64, entity: i64) -> u32 {
-        let groups = self.of_entity.get(&(dimension, entity)).cloned().unwrap_or_default();
-        self.set_of_groups(dimension, groups)
+    pub fn set_of_entity(&mut self, dimension: i64, entity: i64) -> Result<u32, ReadError> {
+        let key = (dimension, entity);
+        if let Some(&set) = self.set_of_entity.get(&key) {
+            return Ok(set);
+        }
+        let groups = self.of_entity.get(&key).cloned().unwrap_or_default();
+        let set = self.set_of_groups(dimension, groups)?;
+        self.set_of_entity.insert(key, set);
+        Ok(set)
     }
 
     /// The tag set of elements in these groups: the names of all, and the number of the first. A
-    /// negative number is a group that the entity is in with the other orientation.
-    pub fn set_of_groups(&mut self, dimension: i64, groups: Vec<i64>) -> u32 {
-        let groups: Vec<i64> =
-            groups.into_iter().map(|group| group.saturating_abs()).filter(|&group| group != 0).collect();
+    /// negative number is a group that the entity is in with the other orientation; a group that comes
+    /// twice counts once.
+    pub fn set_of_groups(&mut self, dimension: i64, mut groups: Vec<i64>) -> Result<u32, ReadError> {
+        let mut seen = HashSet::new();
+        groups.iter_mut().for_each(|group| *group = group.saturating_abs());
+        groups.retain(|&group| group != 0 && seen.insert(group));
         let key = (dimension, groups);
         if let Some(&set) = self.set_of_groups.get(&key) {
-            return set;
+            return Ok(set);
         }
         let names: Vec<&str> = key
             .1
@@ -90,8 +106,8 @@ impl Groups {
         } else {
             set_of_labels(names, key.1.first().and_then(|&group| i32::try_from(group).ok()))
         };
-        let index = self.tags.intern(set);
+        let index = self.tags.intern(set, Format::Msh)?;
         self.set_of_groups.insert(key, index);
-        index
+        Ok(index)
     }
 }

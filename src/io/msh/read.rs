@@ -11,7 +11,8 @@ use crate::io::{Document, Format, ReadError};
 /// The mesh in an MSH file.
 pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
     let mut file = MshFile::open(bytes)?;
-    let (mut nodes, mut elements, mut groups) = (Nodes::default(), Elements::default(), Groups::default());
+    let (mut nodes, mut elements) = (Nodes::default(), Elements::default());
+    let mut groups = Groups::new(bytes.len());
     while let Some(name) = file.tokens.next() {
         match name {
             b"$PhysicalNames" => groups.read_names(&mut file)?,

@@ -3,13 +3,8 @@
 use std::collections::HashMap;
 
 use super::cursor::{Result, error};
+use crate::io::name_budget::NameBudget;
 use crate::mesh::{TagSet, Tags};
-
-/// Names may take this many bytes for each byte of the file. Every set of names holds copies of its
-/// names, so without a bound a small file could ask for memory that grows as the square of its size.
-const BYTES_PER_BYTE: usize = 16;
-/// Names of this many bytes are fine in any file.
-const BYTES_ALWAYS: usize = 1 << 20;
 
 /// Gathers the tags of the faces, in order.
 pub(super) struct Names {
@@ -19,7 +14,7 @@ pub(super) struct Names {
     seen: HashMap<TagSet, u32>,
     tags: Tags,
     faces: usize,
-    bytes_left: usize,
+    budget: NameBudget,
 }
 
 impl Names {
@@ -30,7 +25,7 @@ impl Names {
             seen: HashMap::new(),
             tags: Tags::default(),
             faces: 0,
-            bytes_left: file_length.saturating_mul(BYTES_PER_BYTE).saturating_add(BYTES_ALWAYS),
+            budget: NameBudget::new(file_length),
         }
     }
 
@@ -80,14 +75,11 @@ impl Names {
     }
 
     fn add(&mut self, set: TagSet, line: u64) -> Result<u32> {
-        let names = set.groups.iter().chain(&set.object).chain(&set.material);
-        // Each name is held twice, in `seen` and in `tags`.
-        let bytes: usize = names.map(|name| 2 * (name.len() + size_of::<String>())).sum();
-        self.bytes_left = self.bytes_left.checked_sub(bytes).ok_or_else(|| {
+        if !self.budget.take(&set) {
             let message = "the names of groups, objects and materials combine to more memory than this file \
                            is worth: give faces fewer or shorter names";
-            error(line, "obj-too-many-names", message)
-        })?;
+            return Err(error(line, "obj-too-many-names", message));
+        }
         let index = self.tags.sets.len() as u32;
         self.seen.insert(set.clone(), index);
         self.tags.sets.push(set);

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::TAG_NAMES;
-use super::array::Decoder;
+use super::array::{Decoder, Wanted};
 use super::xml::{DataArray, Piece, parse};
 use crate::geometry::Point;
 use crate::io::cell_collector::CellCollector;
@@ -16,14 +16,14 @@ use crate::io::{Document, Format, ReadError};
 /// The mesh in a VTU file.
 pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
     let file = parse(bytes)?;
-    let decoder = Decoder { bytes, file: &file };
+    let decoder = Decoder::new(bytes, &file);
     let mut grid = Grid::default();
     for piece in &file.pieces {
         grid.add(&decoder, piece)?;
     }
     let mut named = HashMap::new();
     if let Some(array) = file.field_data.iter().find(|array| array.name == TAG_NAMES)
-        && let Some(json) = decoder.decode(array)?.into_integers()
+        && let Some(json) = decoder.decode(array, None)?.into_integers()
     {
         let json: Vec<u8> = json.into_iter().filter_map(|b| u8::try_from(b).ok()).collect();
         named = names_from_json(&json);
@@ -45,14 +45,18 @@ struct Grid {
 }
 
 impl Grid {
-    fn add(&mut self, decoder: &Decoder<'_>, piece: &Piece<'_>) -> Result<(), ReadError> {
+    fn add<'a>(&mut self, decoder: &Decoder<'a>, piece: &Piece<'a>) -> Result<(), ReadError> {
         let first_node = self.positions.len();
         let first_corner = self.connectivity.len() as i64;
         let first_cell = self.ends.len();
-        if let Some(points) = &piece.points {
-            self.add_points(decoder, points)?;
+        match &piece.points {
+            Some(points) => self.add_points(decoder, points, piece.node_count)?,
+            None if piece.node_count == 0 => {}
+            None => {
+                let message = format!("a piece says it has {} points, but has no Points", piece.node_count);
+                return Err(refuse(Format::Vtu, None, code::INCONSISTENT, message));
+            }
         }
-        check_count(decoder, piece.node_count, self.positions.len() - first_node, "points")?;
         if piece.cell_count == 0 {
             return Ok(());
         }
@@ -63,39 +67,46 @@ impl Grid {
                 refuse(Format::Vtu, None, code::SYNTAX, message)
             })
         };
-        let nodes = decoder.integers(find("connectivity")?)?;
+        let a_cell = Some(Wanted { attribute: "NumberOfCells", count: piece.cell_count, each: 1 });
+        let nodes = decoder.integers(find("connectivity")?, None)?;
         check_nodes(decoder, find("connectivity")?, &nodes, piece.node_count)?;
         self.connectivity.extend(nodes.iter().map(|node| node + first_node as i64));
-        let ends = decoder.integers(find("offsets")?)?;
+        let ends = decoder.integers(find("offsets")?, a_cell)?;
         self.ends.extend(ends.iter().map(|end| end.saturating_add(first_corner)));
-        self.types.extend(decoder.integers(find("types")?)?);
-        check_count(decoder, piece.cell_count, self.ends.len() - first_cell, "cells")?;
+        self.types.extend(decoder.integers(find("types")?, a_cell)?);
         for array in piece.cell_data.iter().filter(|array| is_wanted(&array.name) && array.components == 1) {
-            self.add_cell_data(decoder, array, first_cell)?;
+            self.add_cell_data(decoder, array, a_cell, first_cell)?;
         }
         Ok(())
     }
 
-    fn add_points(&mut self, decoder: &Decoder<'_>, array: &DataArray<'_>) -> Result<(), ReadError> {
-        let values = decoder.decode(array)?.into_floats();
+    fn add_points<'a>(
+        &mut self,
+        decoder: &Decoder<'a>,
+        array: &DataArray<'a>,
+        count: u64,
+    ) -> Result<(), ReadError> {
         let size = array.components;
-        if !(2..=3).contains(&size) || !values.len().is_multiple_of(size) {
-            let message = &format!("has {} numbers in groups of {size}; points have 3", values.len());
+        if !(2..=3).contains(&size) {
+            let message = &format!("has numbers in groups of {size}; points have 3");
             return Err(decoder.refuse(array, code::INCONSISTENT, message));
         }
+        let wanted = Wanted { attribute: "NumberOfPoints", count, each: size };
+        let values = decoder.decode(array, Some(wanted))?.into_floats();
         let points = values.chunks_exact(size);
         self.positions.extend(points.map(|p| Point::new(p[0], p[1], p.get(2).copied().unwrap_or(0.0))));
         Ok(())
     }
 
     /// Adds cell data. An array that an earlier piece did not have is dropped by its wrong length.
-    fn add_cell_data(
+    fn add_cell_data<'a>(
         &mut self,
-        decoder: &Decoder<'_>,
-        array: &DataArray<'_>,
+        decoder: &Decoder<'a>,
+        array: &DataArray<'a>,
+        wanted: Option<Wanted>,
         first_cell: usize,
     ) -> Result<(), ReadError> {
-        let column = decoder.decode(array)?;
+        let column = decoder.decode(array, wanted)?;
         match self.cell_data.get_mut(&array.name) {
             None if first_cell == 0 => drop(self.cell_data.insert(array.name.clone(), column)),
             None => {}
@@ -104,15 +115,6 @@ impl Grid {
         }
         Ok(())
     }
-}
-
-fn check_count(decoder: &Decoder<'_>, said: u64, found: usize, what: &str) -> Result<(), ReadError> {
-    if said == found as u64 {
-        return Ok(());
-    }
-    let last = decoder.file.pieces.len();
-    let message = format!("a piece (of {last}) says it has {said} {what}, but its arrays hold {found}");
-    Err(refuse(Format::Vtu, None, code::INCONSISTENT, message))
 }
 
 /// A node of another piece must not pass for one of this.
@@ -125,7 +127,10 @@ fn check_nodes(
     match nodes.iter().find(|&&node| u64::try_from(node).map_or(true, |node| node >= count)) {
         None => Ok(()),
         Some(node) => {
-            let message = &format!("names node {node}, but the nodes are numbered 0 to {}", count as i64 - 1);
+            let message = &match count.checked_sub(1) {
+                Some(last) => format!("names node {node}, but the nodes are numbered 0 to {last}"),
+                None => format!("names node {node}, but its piece has no nodes"),
+            };
             Err(decoder.refuse(array, code::NODE_OUT_OF_RANGE, message))
         }
     }

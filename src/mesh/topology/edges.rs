@@ -1,6 +1,8 @@
 //! The unique edges of a surface.
 
 use crate::mesh::{EdgeId, Faces, NodeId, PolygonMesh, QuadMesh};
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor, Silent};
 
 /// The unique edges of a surface, numbered in the order in which a walk over the faces meets them.
 ///
@@ -47,17 +49,27 @@ impl Edges {
 
     /// The edges of any surface, as the two above.
     pub fn of(mesh: &impl Faces) -> Self {
+        Self::monitored(mesh, &Silent).expect("nobody stops it")
+    }
+
+    /// The edges of any surface, for callers that may want to stop.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn monitored(mesh: &impl Faces, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let corners = mesh.corners();
         let mut lists = Lists::new(mesh.node_count(), corners);
         let mut of_corner = Vec::with_capacity(corners.len());
-        for f in 0..mesh.face_count() {
-            let face = mesh.nodes_of(f);
-            for (i, &a) in face.iter().enumerate() {
-                let b = face.get(i + 1).copied().unwrap_or(face[0]);
-                of_corner.push(lists.edge(a, b));
+        for batch in batches(mesh.face_count(), monitor) {
+            for f in batch? {
+                let face = mesh.nodes_of(f);
+                for (i, &a) in face.iter().enumerate() {
+                    let b = face.get(i + 1).copied().unwrap_or(face[0]);
+                    of_corner.push(lists.edge(a, b));
+                }
             }
         }
-        Self { ends: lists.ends, of_corner }
+        Ok(Self { ends: lists.ends, of_corner })
     }
 
     /// Number of edges.

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{OPTIONS, SizeField, SizeOptions, SizedElement};
+use crate::Silent;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, NodeId, PolygonMesh};
 use crate::sizing::curvature::turn_per_length;
@@ -49,7 +50,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64) {
 fn pipes_turn_once_around() {
     for radius in [0.1, 2.0, 50.0] {
         for triangles in [false, true] {
-            let turns = turn_per_length(&pipe(radius, triangles));
+            let turns = turn_per_length(&pipe(radius, triangles), &Silent).unwrap();
             let per_quad = if triangles { 2 } else { 1 };
             for (f, &turn) in turns.iter().enumerate() {
                 let column = f / per_quad % 8;
@@ -74,7 +75,8 @@ fn orientation_of_single_faces_changes_nothing() {
         }
         mixed.push_face(face);
     }
-    let (straight, mixed) = (turn_per_length(&mesh), turn_per_length(&mixed));
+    let (straight, mixed) =
+        (turn_per_length(&mesh, &Silent).unwrap(), turn_per_length(&mixed, &Silent).unwrap());
     for (a, b) in straight.iter().zip(&mixed) {
         assert_near(*b, *a, 1e-9);
     }
@@ -94,9 +96,9 @@ fn balls_and_saddles_turn_everywhere() {
     for triangles in [false, true] {
         let per_quad = if triangles { 2 } else { 1 };
         let middle = per_quad * (4 * 8 + 4);
-        let ball = turn_per_length(&sheet(8, 8, triangles, patch))[middle];
+        let ball = turn_per_length(&sheet(8, 8, triangles, patch), &Silent).unwrap()[middle];
         assert_near(ball, degrees_per_length(radius), 0.05);
-        let saddle = turn_per_length(&sheet(8, 8, triangles, saddle))[middle];
+        let saddle = turn_per_length(&sheet(8, 8, triangles, saddle), &Silent).unwrap()[middle];
         assert_near(saddle, degrees_per_length(radius), 0.05);
     }
 }
@@ -109,12 +111,12 @@ fn hinge(angle: f64) -> PolygonMesh {
 
 #[test]
 fn sharp_edges_creases_and_rims_do_not_count() {
-    assert!(turn_per_length(&hinge(39.0)).iter().all(|&turn| (turn - 19.5).abs() < 1e-9));
-    assert_eq!(turn_per_length(&hinge(41.0)), [0.0; 2]);
-    assert_eq!(turn_per_length(&hinge(0.0)), [0.0; 2]);
+    assert!(turn_per_length(&hinge(39.0), &Silent).unwrap().iter().all(|&turn| (turn - 19.5).abs() < 1e-9));
+    assert_eq!(turn_per_length(&hinge(41.0), &Silent).unwrap(), [0.0; 2]);
+    assert_eq!(turn_per_length(&hinge(0.0), &Silent).unwrap(), [0.0; 2]);
     let mut creased = hinge(20.0);
     creased.features.creases.push(([NodeId(4), NodeId(1)], 2.0));
-    assert_eq!(turn_per_length(&creased), [0.0; 2]);
+    assert_eq!(turn_per_length(&creased, &Silent).unwrap(), [0.0; 2]);
 }
 
 #[test]
@@ -124,7 +126,7 @@ fn a_large_plane_next_to_a_fillet_stays_flat() {
         let angle = ((i - 1.0).max(0.0) * 10.0_f64).to_radians();
         Point::new(if i < 0.5 { -10.0 } else { angle.sin() }, 5.0 * j, 1.0 - angle.cos())
     });
-    let turns = turn_per_length(&mesh);
+    let turns = turn_per_length(&mesh, &Silent).unwrap();
     assert!(turns[0] * 10.0 <= 5.01, "the plane shares one edge's turn: {}", turns[0] * 10.0);
     assert_near(turns[4], degrees_per_length(1.0), 0.01);
 }
@@ -132,7 +134,7 @@ fn a_large_plane_next_to_a_fillet_stays_flat() {
 #[test]
 fn elements_are_refined_until_an_edge_spans_the_angle() {
     let mesh = pipe(2.0, false);
-    let field = SizeField::new(&mesh, SizeOptions { curvature: Some(5.0), ..OPTIONS }).unwrap();
+    let field = SizeField::new(&mesh, SizeOptions { curvature: Some(5.0), ..OPTIONS }, &Silent).unwrap();
     let longest_allowed = 5.0 / degrees_per_length(2.0);
     let wants = |longest: f64, f: u32| {
         let corners = [Point::ZERO; 4];

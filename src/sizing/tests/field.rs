@@ -6,6 +6,7 @@ use super::{
     OPTIONS, Region, Shape, SizeField, SizeOptions, SizedElement, Target, children, distance, element, field,
     one_face, square,
 };
+use crate::Silent;
 use crate::geometry::Point;
 use crate::geometry::samples::{of_hull, point, points, rotation};
 
@@ -25,7 +26,8 @@ fn sizes_and_levels_are_reached_not_passed() {
     assert!(wants(Target::Level(1), &unit) && !wants(Target::Level(0), &unit));
     assert!(!wants(Target::Level(3), &SizedElement { level: 3, ..unit }));
     assert!(wants(Target::Level(3), &SizedElement { level: 2, ..unit }));
-    let everywhere = SizeField::new(&mesh, SizeOptions { edge_length: Some(0.5), ..OPTIONS }).unwrap();
+    let everywhere =
+        SizeField::new(&mesh, SizeOptions { edge_length: Some(0.5), ..OPTIONS }, &Silent).unwrap();
     assert!(everywhere.wants(&unit) && !everywhere.wants(&children(&unit)[0]));
 }
 
@@ -37,7 +39,8 @@ fn rounding_makes_no_edge_too_long() {
     assert!(rounded > 0.1 && rounded < 0.100_000_001, "{rounded}");
     let long = SizedElement { longest: rounded, ..element };
     let global =
-        SizeField::new(&one_face(corners), SizeOptions { edge_length: Some(0.1), ..OPTIONS }).unwrap();
+        SizeField::new(&one_face(corners), SizeOptions { edge_length: Some(0.1), ..OPTIONS }, &Silent)
+            .unwrap();
     assert!(!global.wants(&long));
     let region =
         Region { shape: Shape::Sphere { center: corners[0], radius: 1.0 }, target: Target::Size(0.1) };
@@ -66,7 +69,7 @@ fn idle_where_all_targets_are_met() {
     let unit = square(0.0, 0.0, 0.0);
     let mesh = one_face(unit.corners);
     let idle = |options: SizeOptions<'_>| -> Vec<bool> {
-        let field = SizeField::new(&mesh, options).unwrap();
+        let field = SizeField::new(&mesh, options, &Silent).unwrap();
         (0..6).map(|level| field.is_idle_from(level)).collect()
     };
     assert_eq!(idle(OPTIONS), [true; 6]);
@@ -88,7 +91,7 @@ fn a_polygon_of_many_sides_has_children_longer_than_its_edges() {
         mesh.positions.push(Point::new(angle.cos(), angle.sin(), 0.0));
     }
     mesh.push_face((0..n).map(crate::mesh::NodeId));
-    let field = SizeField::new(&mesh, SizeOptions { edge_length: Some(0.4), ..OPTIONS }).unwrap();
+    let field = SizeField::new(&mesh, SizeOptions { edge_length: Some(0.4), ..OPTIONS }, &Silent).unwrap();
     assert!(!field.is_idle_from(1) && !field.is_idle_from(2) && field.is_idle_from(3));
 }
 
@@ -138,7 +141,7 @@ proptest! {
     #[test]
     fn idle_means_that_nothing_is_wanted(corners in points::<4>(1.0), size in 0.05..1.0_f64, picks in prop::collection::vec(0_usize..4, 6)) {
         let mesh = one_face(corners);
-        let field = SizeField::new(&mesh, SizeOptions { edge_length: Some(size), ..OPTIONS }).unwrap();
+        let field = SizeField::new(&mesh, SizeOptions { edge_length: Some(size), ..OPTIONS }, &Silent).unwrap();
         let mut at = element(corners);
         for pick in picks {
             at = children(&at)[pick];

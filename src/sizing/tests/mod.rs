@@ -7,6 +7,7 @@ mod overlap;
 mod validation;
 
 use super::{Region, Shape, SizeField, SizeOptions, SizedElement, Target};
+use crate::Silent;
 use crate::geometry::{Point, closest_on_triangle};
 use crate::mesh::{FaceId, NodeId, PolygonMesh};
 
@@ -43,7 +44,7 @@ const OPTIONS: SizeOptions<'static> =
     SizeOptions { edge_length: None, curvature: None, gradation: 2.0, regions: &[] };
 
 fn field(mesh: &PolygonMesh, regions: &[Region], gradation: f64) -> SizeField {
-    SizeField::new(mesh, SizeOptions { gradation, regions, ..OPTIONS }).expect("valid options")
+    SizeField::new(mesh, SizeOptions { gradation, regions, ..OPTIONS }, &Silent).expect("valid options")
 }
 
 /// True if an element that is to be refined wherever it overlaps `shape` is to be refined.

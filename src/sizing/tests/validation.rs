@@ -3,11 +3,12 @@
 use glam::DQuat;
 
 use super::{OPTIONS, Region, Shape, SizeField, SizeOptions, Target, one_face, square};
+use crate::Silent;
 use crate::geometry::Point;
 
 fn refusal(options: SizeOptions<'_>) -> (&'static str, String) {
     let mesh = one_face(square(0.0, 0.0, 0.0).corners);
-    let error = SizeField::new(&mesh, options).expect_err("options out of range");
+    let error = SizeField::new(&mesh, options, &Silent).expect_err("options out of range");
     (error.code(), error.to_string())
 }
 

@@ -2,7 +2,7 @@
 
 use hexmill::io::obj;
 
-use super::{fail, files, folder_with, succeed};
+use super::{fail, folder_with, succeed};
 
 #[test]
 fn obj_to_obj_keeps_everything() {
@@ -39,15 +39,6 @@ fn glb_is_only_written() {
     assert!(std::fs::read(folder.path().join("helmet.glb")).unwrap().starts_with(b"glTF"));
     let message = "error[format-not-read]: helmet.glb: GLB files are only written: give the mesh as OBJ or another format";
     fail(&folder, &["convert", "helmet.glb", "-o", "back.obj"], 1, message);
-}
-
-#[test]
-fn a_file_can_be_converted_onto_itself() {
-    let folder = folder_with("quads/helmet.obj");
-    succeed(&folder, &["convert", "helmet.obj", "-o", "helmet.obj", "--quiet"]);
-    assert_eq!(files(&folder), ["helmet.obj"]);
-    let bytes = std::fs::read(folder.path().join("helmet.obj")).unwrap();
-    assert_eq!(obj::read(&bytes).unwrap().mesh.cell_count(), 58);
 }
 
 #[cfg(unix)]

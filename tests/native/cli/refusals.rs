@@ -31,6 +31,115 @@ fn edge_length_must_be_positive() {
 }
 
 #[test]
+fn options_must_be_within_their_range() {
+    for (option, value, part) in [
+        ("--gradation", "3", "invalid value '3' for '--gradation <G>': give a number above 1, at most 2"),
+        ("--gradation", "1", "above 1, at most 2"),
+        ("--gradation", "nan", "above 1, at most 2"),
+        (
+            "--curvature",
+            "181",
+            "invalid value '181' for '--curvature <DEG>': give a number above 0, at most 180",
+        ),
+        ("--levels", "40", "invalid value '40' for '--levels <N>': 40 is not in 0..=30"),
+        ("--levels", "-1", "'-1'"),
+        ("--levels", "13", "--levels is 13, but --max-levels 12; give fewer levels"),
+        ("--max-levels", "31", "invalid value '31' for '--max-levels <N>': 31 is not in 0..=30"),
+        ("--max-quads", "1073741825", "1073741825 is not in 1..=1073741824"),
+        ("--max-quads", "0", "0 is not in 1..=1073741824"),
+        ("--threads", "1025", "1025 is not in 1..=1024"),
+        ("--threads", "many", "invalid value 'many' for '--threads <N>'"),
+    ] {
+        misused(&["refine", "in.obj", "-o", "out.obj", &format!("{option}={value}")], part);
+    }
+    misused(
+        &["refine", "in.obj", "-o", "out.obj", "--levels=3", "--max-levels=2"],
+        "--levels is 3, but --max-levels 2",
+    );
+}
+
+/// Checks that a command line is told to write over a file that it needs, and that the file stays as it is.
+#[track_caller]
+fn overwrites(args: &[&str], part: &str) {
+    let folder = folder_holding("in.obj", SQUARE);
+    std::fs::create_dir(folder.path().join("sub")).unwrap();
+    let before = files(&folder);
+    let run = hexmill(&folder, args);
+    assert_eq!(run.code, Some(2), "{args:?}: {}", run.stderr);
+    assert!(run.stderr.starts_with("error: ") && run.stderr.contains(part), "{}", run.stderr);
+    assert!(run.stderr.contains("For more information, try '--help'"), "{}", run.stderr);
+    assert_eq!(files(&folder), before);
+    assert_eq!(std::fs::read_to_string(folder.path().join("in.obj")).unwrap(), SQUARE);
+}
+
+#[test]
+fn no_file_is_both_read_and_written() {
+    for input in ["in.obj", "./in.obj", "sub/../in.obj"] {
+        overwrites(&["refine", input, "-o", "in.obj"], "--output and the input are the same file: in.obj");
+        overwrites(&["refine", "in.obj", "-o", input], "--output and the input are the same file");
+        overwrites(&["convert", input, "-o", "in.obj"], "--output and the input are the same file");
+        overwrites(&["check", input, "--report", "in.obj"], "--report and the mesh are the same file");
+    }
+    overwrites(
+        &["refine", "in.obj", "-o", "out.obj", "--report", "in.obj"],
+        "--report and the input are the same file",
+    );
+    overwrites(
+        &["refine", "missing.obj", "-o", "in.obj", "-r", "points:in.obj,1:level=2"],
+        "--output and a region's file are the same file",
+    );
+    overwrites(
+        &["check", "missing.obj", "--surface", "in.obj", "--report", "in.obj"],
+        "--report and --surface are the same file",
+    );
+}
+
+#[test]
+fn no_file_is_written_twice() {
+    for report in ["out.obj", "./out.obj", "sub/../out.obj"] {
+        overwrites(
+            &["refine", "in.obj", "-o", "out.obj", "--report", report],
+            "--report and --output are the same file",
+        );
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_the_input_is_the_input() {
+    let folder = folder_holding("in.obj", SQUARE);
+    std::os::unix::fs::symlink("in.obj", folder.path().join("link.obj")).unwrap();
+    let run = hexmill(&folder, &["convert", "in.obj", "-o", "link.obj"]);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(run.stderr.contains("are the same file: link.obj"), "{}", run.stderr);
+}
+
+/// The input is no OBJ, but that is not found out: the outputs are looked at first.
+#[test]
+fn outputs_that_cannot_be_written_are_found_before_the_work() {
+    let folder = folder_holding("in.obj", "this is not OBJ");
+    std::fs::create_dir(folder.path().join("sub.obj")).unwrap();
+    std::fs::write(folder.path().join("out.obj"), "an older file").unwrap();
+    let missing = "cannot be written: no such file or directory; check the path";
+    let directory = "cannot be written: is a directory; check the file and its folder";
+    for (args, message) in [
+        (vec!["refine", "in.obj", "-o", "away/out.obj"], format!("away/out.obj: {missing}")),
+        (vec!["refine", "in.obj", "-o", "sub.obj"], format!("sub.obj: {directory}")),
+        (
+            vec!["refine", "in.obj", "-o", "out.obj", "--report", "away/r.json"],
+            format!("away/r.json: {missing}"),
+        ),
+        (vec!["refine", "in.obj", "-o", "out.obj", "--report", "sub.obj"], format!("sub.obj: {directory}")),
+        (vec!["convert", "in.obj", "-o", "away/out.obj"], format!("away/out.obj: {missing}")),
+        (vec!["check", "in.obj", "--report", "away/r.json"], format!("away/r.json: {missing}")),
+    ] {
+        fail(&folder, &args, 1, &format!("error[file-not-written]: {message}"));
+    }
+    assert_eq!(files(&folder), ["in.obj", "out.obj", "sub.obj"]);
+    assert_eq!(std::fs::read_to_string(folder.path().join("out.obj")).unwrap(), "an older file");
+}
+
+#[test]
 fn threads_must_be_positive() {
     misused(&["refine", "in.obj", "-o", "out.obj", "--threads", "0"], "1..=1024");
 }

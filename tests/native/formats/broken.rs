@@ -119,13 +119,18 @@ fn vtu() {
     check(
         &file("", &piece("0 0 0 1 0 0", "0 1 2", "3", "5")),
         "inconsistent",
-        None,
-        "3 points, but its arrays hold 2",
+        Some(5),
+        "the array 'p' holds 6 numbers, but NumberOfPoints is 3, with 3 for each",
     );
     check(&file("", &piece("0 0 0\n1 0 O", "0 1 2", "3", "5")), "bad-number", Some(6), "'O'");
     check(&file("", &piece(points, "0 1 3", "3", "5")), "node-out-of-range", Some(8), "node 3");
     check(&file("", &piece(points, "0 1 2", "4", "5")), "inconsistent", None, "its offset is wrong");
-    check(&file("", &piece(points, "0 1 2", "3 6", "5")), "inconsistent", None, "hold 2");
+    check(
+        &file("", &piece(points, "0 1 2", "3 6", "5")),
+        "inconsistent",
+        Some(9),
+        "'offsets' holds 2 numbers",
+    );
     check(&file("", &piece(points, "0 1 2", "3", "13")), "unsupported-cell", None, "wedge");
     let appended = "<Piece NumberOfPoints=\"1\" NumberOfCells=\"0\"><Points>\n\
         <DataArray type=\"Float32\" Name=\"p\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points></Piece>";

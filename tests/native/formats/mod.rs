@@ -6,6 +6,7 @@ mod broken;
 mod foreign;
 mod glb;
 mod golden;
+mod hostile;
 mod mutations;
 mod round_trip;
 mod worlds;

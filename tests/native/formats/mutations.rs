@@ -1,12 +1,13 @@
 //! Damaged files: whatever happens to the bytes, a reader answers with a mesh or an error, and holds no
 //! more memory than the file's size warrants.
 
-use hexmill::io::{AnyMesh, Format, inp, medit, msh, vtk, vtu};
+use hexmill::io::{AnyMesh, Format, ReadError, inp, medit, msh, vtk, vtu};
 
 use super::allocation::most_held;
 use super::foreign;
 use super::round_trip::read;
 use super::worlds::{document, hex_grid, quad_grid, some_sets};
+use crate::valid::assert_valid;
 
 /// Bytes of memory a reader may hold for a byte of the file, beside a constant. Most of the constant is
 /// room for the names and the state of a decompression.
@@ -43,11 +44,16 @@ fn survive(name: &str, bytes: &[u8], format: Format, what: impl Fn() -> String) 
         what(),
         bytes.len()
     );
-    if let Err(error) = &result {
-        assert!(!error.code.is_empty() && error.message.len() > 10, "{name}, {}: {error:?}", what());
-        assert_ne!(error.line, Some(0), "{name}, {}", what());
+    match &result {
+        Ok(document) => assert_valid(document),
+        Err(error) => check_error(name, error, what),
     }
     result.is_ok()
+}
+
+fn check_error(name: &str, error: &ReadError, what: impl Fn() -> String) {
+    assert!(!error.code.is_empty() && error.message.len() > 10, "{name}, {}: {error:?}", what());
+    assert_ne!(error.line, Some(0), "{name}, {}", what());
 }
 
 /// Numbers that look random and are the same in each run (xorshift, Marsaglia 2003).
@@ -95,6 +101,59 @@ fn several_flipped_bytes_never_break_a_reader() {
                 damaged[at] = random(&mut state) as u8;
             }
             survive(&name, &damaged, format, || format!("round {round}"));
+        }
+    }
+}
+
+/// One piece of damage at a random place, with bytes from `other` where it takes some.
+fn damage(bytes: &mut Vec<u8>, other: &[u8], state: &mut u64) {
+    const NUMBERS: [&str; 10] =
+        ["0", "-1", "1", "2147483648", "4294967296", "18446744073709551615", "nan", "-inf", "1e999", "0.5"];
+    let mut below = |limit: usize| random(state) as usize % limit.max(1);
+    if bytes.is_empty() {
+        return;
+    }
+    let at = below(bytes.len());
+    let end = |length: usize| (at + length).min(bytes.len());
+    match below(6) {
+        0 => bytes[at] ^= 1 << below(8),
+        1 => bytes.truncate(at),
+        2 => drop(bytes.drain(at..end(1 + below(40)))),
+        3 => {
+            // From a place of the other file into this one.
+            let from = below(other.len());
+            let to = (from + 1 + below(200)).min(other.len());
+            let end = end(below(200));
+            bytes.splice(at..end, other[from..to].iter().copied());
+        }
+        4 => {
+            let piece = bytes[at..end(1 + below(60))].to_vec();
+            bytes.splice(at..at, piece);
+        }
+        _ => {
+            // The number at this place or after it.
+            let is_digit = |b: &u8| b.is_ascii_digit();
+            let Some(start) = bytes[at..].iter().position(is_digit).map(|step| at + step) else { return };
+            let length = bytes[start..].iter().take_while(|b| is_digit(b)).count();
+            bytes.splice(start..start + length, NUMBERS[below(NUMBERS.len())].bytes());
+        }
+    }
+}
+
+/// The fuzzers' work on a small scale: 200 files from each, with one to four pieces of damage.
+#[test]
+fn damage_of_all_kinds_never_breaks_a_reader() {
+    let mut state = 0xA076_1D64_78BD_642F;
+    let files = files();
+    for (name, bytes, format) in &files {
+        let alike: Vec<&Vec<u8>> = files.iter().filter(|(_, _, f)| f == format).map(|(_, b, _)| b).collect();
+        for round in 0..200 {
+            let mut damaged = bytes.clone();
+            for _ in 0..1 + round % 4 {
+                let other = alike[random(&mut state) as usize % alike.len()];
+                damage(&mut damaged, other, &mut state);
+            }
+            survive(name, &damaged, *format, || format!("round {round}"));
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Conforming refinement of quad meshes.
 
+mod cancel;
+mod counts;
 mod estimate;
 mod exhaustive;
 mod judge;
@@ -19,13 +21,13 @@ fn refine_where(
     options: &QuadOptions,
     wanted: impl Fn(usize, Point) -> bool,
 ) -> RefinedQuads {
-    let mut refinement = QuadRefinement::new(input, options).expect("a valid surface");
+    let mut refinement = QuadRefinement::new(input, options, &Silent).expect("a valid surface");
     for level in 0.. {
         let candidates = refinement.candidates();
         let targets: Vec<f64> = candidates
             .centers
             .iter()
-            .map(|&center| if wanted(level, center) { 0.0 } else { f64::INFINITY })
+            .map(|&center| if wanted(level, center) { f64::MIN_POSITIVE } else { f64::INFINITY })
             .collect();
         if !refinement.advance(Some(&targets), &Silent).expect("within limits") {
             break;

@@ -10,7 +10,7 @@ use super::refine_where;
 use super::worlds::{cube, grid, mapped_grid, mixed_strip, three_sheets};
 
 /// A repeatable coin for each (seed, level, place): true in `percent` of all cases.
-fn coin(seed: u64, level: usize, p: Point, percent: u64) -> bool {
+pub fn coin(seed: u64, level: usize, p: Point, percent: u64) -> bool {
     let mut h = seed ^ (level as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     for x in p.to_array() {
         h = (h ^ x.to_bits()).wrapping_mul(0xff51_afd7_ed55_8ccd);
@@ -20,7 +20,7 @@ fn coin(seed: u64, level: usize, p: Point, percent: u64) -> bool {
 }
 
 /// The surface with the corners of every face rotated and the faces in another order.
-fn shuffled(mesh: &PolygonMesh, seed: u64) -> PolygonMesh {
+pub fn shuffled(mesh: &PolygonMesh, seed: u64) -> PolygonMesh {
     let mut order: Vec<usize> = (0..mesh.face_count()).collect();
     order.sort_by_key(|&f| (f as u64 + 1).wrapping_mul(seed | 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let mut out = PolygonMesh { positions: mesh.positions.clone(), ..Default::default() };

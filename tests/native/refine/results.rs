@@ -3,7 +3,7 @@
 use hexmill::geometry::Point;
 use hexmill::mesh::check::check_quads;
 use hexmill::mesh::{TagSet, Tags};
-use hexmill::refine::{QuadOptions, RefineError, RefinedQuads, refine_quads};
+use hexmill::refine::{QuadOptions, QuadRefinement, RefineError, RefinedQuads, refine_quads};
 use hexmill::sizing::{Region, Shape, Target};
 use hexmill::{Cancelled, Monitor, Silent, Stage};
 
@@ -209,4 +209,49 @@ fn the_same_bytes_for_any_number_of_threads() {
     for threads in [2, 3, 4] {
         assert_eq!(run(threads), one);
     }
+}
+
+#[test]
+fn targets_that_are_no_lengths_are_refused() {
+    let (input, options) = (grid(2, 1), QuadOptions::default());
+    for (targets, code, text) in [
+        (&[1.0][..], "target-count", "there are 1 targets for 2 candidates"),
+        (&[1.0, 1.0, 1.0], "target-count", "3 targets for 2"),
+        (&[], "target-count", "0 targets for 2"),
+        (&[1.0, f64::NAN], "target-out-of-range", "the target of candidate 1 is NaN; give a length above 0"),
+        (&[0.0, 1.0], "target-out-of-range", "the target of candidate 0 is 0"),
+        (&[-0.0, -1.0], "target-out-of-range", "the target of candidate 0 is -0"),
+        (&[1.0, f64::NEG_INFINITY], "target-out-of-range", "the target of candidate 1 is -inf"),
+    ] {
+        let mut refinement = QuadRefinement::new(&input, &options, &Silent).unwrap();
+        let error = refinement.advance(Some(targets), &Silent).expect_err(text);
+        assert_eq!(error.code(), code);
+        assert!(error.to_string().contains(text), "{error}");
+        // The refinement is as it was.
+        assert_eq!(refinement.advance(Some(&[0.5; 2]), &Silent), Ok(true));
+        assert_eq!(refinement.advance(Some(&[0.5; 2]), &Silent).unwrap_err().code(), "target-count");
+        assert_eq!(refinement.advance(Some(&[f64::INFINITY; 8]), &Silent), Ok(false));
+        assert_eq!(refinement.finish(&Silent).unwrap().mesh.quads.len(), 8);
+    }
+}
+
+#[test]
+fn targets_have_the_rounding_of_the_edge_length() {
+    // A quarter of this edge comes out longer than a quarter of its length: neither way of asking refines for that.
+    let input = surface(&[[0.1, 0., 0.], [0.4, 0., 0.], [0.4, 0.3, 0.], [0.1, 0.3, 0.]], &[&[0, 1, 2, 3]]);
+    let target = 0.3 / 4.0;
+    let options = QuadOptions { edge_length: Some(target), ..QuadOptions::default() };
+    let by_length = refine_quads(&input, &options, &Silent).unwrap();
+    let none = QuadOptions::default();
+    let mut refinement = QuadRefinement::new(&input, &none, &Silent).unwrap();
+    loop {
+        let targets = vec![target; refinement.candidates().longest.len()];
+        if !refinement.advance(Some(&targets), &Silent).unwrap() {
+            break;
+        }
+    }
+    let longest = refinement.candidates().longest.into_iter().fold(0.0, f64::max);
+    assert!(longest > target, "the case has no rounding in it");
+    let by_target = refinement.finish(&Silent).unwrap();
+    assert_eq!((by_target.mesh.quads.len(), by_target), (16, by_length));
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use hexmill::refine::QuadOptions;
+
 use super::region::RegionArg;
 
 /// Conforming quad meshes from polygon surfaces.
@@ -106,15 +108,15 @@ pub(crate) struct RefineArgs {
     pub(crate) regions: Vec<RegionArg>,
 
     /// Refine everything at least this many times
-    #[arg(long, short, value_name = "N")]
+    #[arg(long, short, value_name = "N", value_parser = levels())]
     pub(crate) levels: Option<u8>,
 
     /// Turn of the surface's normal that one edge may span, in degrees
-    #[arg(long, value_name = "DEG", value_parser = positive)]
+    #[arg(long, value_name = "DEG", value_parser = angle)]
     pub(crate) curvature: Option<f64>,
 
     /// How much larger an element may be than its neighbour around a region with a size (1 < G <= 2)
-    #[arg(long, value_name = "G", value_parser = positive)]
+    #[arg(long, value_name = "G", value_parser = gradation)]
     pub(crate) gradation: Option<f64>,
 
     /// Leave untouched quads as they are (all-quad input whose nodes can be two-coloured)
@@ -122,11 +124,11 @@ pub(crate) struct RefineArgs {
     pub(crate) keep_coarse: bool,
 
     /// Refine no element more often than this [default: 12]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = levels())]
     pub(crate) max_levels: Option<u8>,
 
     /// Refuse to make more quads than this [default: 64000000]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=QuadOptions::MOST_QUADS))]
     pub(crate) max_quads: Option<u64>,
 
     /// Threads to use [default: one a core]; the result does not depend on it
@@ -164,6 +166,21 @@ pub(crate) struct ConvertArgs {
     /// Where to write it
     #[arg(long, short, value_name = "OUT")]
     pub(crate) output: PathBuf,
+}
+
+/// Levels that can be asked for.
+fn levels() -> clap::builder::RangedI64ValueParser<u8> {
+    clap::value_parser!(u8).range(0..=i64::from(QuadOptions::DEEPEST_LEVEL))
+}
+
+/// Degrees of a turn.
+fn angle(text: &str) -> Result<f64, String> {
+    positive(text).ok().filter(|&angle| angle <= 180.0).ok_or("give a number above 0, at most 180".to_owned())
+}
+
+/// A growth from element to element.
+fn gradation(text: &str) -> Result<f64, String> {
+    positive(text).ok().filter(|&g| g > 1.0 && g <= 2.0).ok_or("give a number above 1, at most 2".to_owned())
 }
 
 /// A finite number above zero.

@@ -7,13 +7,18 @@ use hexmill::mesh::{PolygonMesh, check_polygons};
 use super::args::CheckArgs;
 use super::distance::{Distances, Triangles};
 use super::failure::Failure;
-use super::files::load;
+use super::files::{check_outputs, format_of, load};
 use super::progress::Progress;
 use super::region::{load_triangles, triangles_of};
 use super::report::{InputReport, MeshReport, Report, peak_memory_bytes, quality_table};
 
 /// Reads a mesh, looks it over and tells; refuses a mesh that does not conform.
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
+    format_of(&args.mesh)?;
+    let surface = args.surface.as_deref().map(|path| ("--surface", path));
+    let inputs: Vec<_> = std::iter::once(("the mesh", args.mesh.as_path())).chain(surface).collect();
+    let outputs: Vec<_> = args.report.iter().map(|path| ("--report", path.as_path())).collect();
+    check_outputs(&inputs, &outputs)?;
     let progress = Progress::new(quiet);
     let mut loaded = progress.stage("read", || load(&args.mesh))?;
     let empty = Document::from(PolygonMesh::default());

@@ -4,12 +4,14 @@ use hexmill::io;
 
 use super::args::ConvertArgs;
 use super::failure::Failure;
-use super::files::{format_of, load, save};
+use super::files::{check_outputs, format_of, load, save};
 use super::progress::Progress;
 
 /// Reads a mesh and writes it in another format.
 pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {
     let format = format_of(&args.output)?;
+    format_of(&args.input)?;
+    check_outputs(&[("the input", &args.input)], &[("--output", &args.output)])?;
     let progress = Progress::new(quiet);
     let document = progress.stage("read", || load(&args.input))?.document;
     let bytes = progress

@@ -51,9 +51,12 @@ impl Failure {
         Self::refused(error.code(), format!("{}: {error}", path.display()))
     }
 
-    /// The surface in `path` was not refined.
+    /// The surface in `path` was not refined, or the options make no sense.
     pub(crate) fn refine(path: &Path, error: &RefineError) -> Self {
-        Self::refused(error.code(), format!("{}: {error}", path.display()))
+        match error {
+            RefineError::Option { .. } | RefineError::Sizing(_) => Self::Usage(error.to_string()),
+            _ => Self::refused(error.code(), format!("{}: {error}", path.display())),
+        }
     }
 
     /// 1 for refusals, 2 for usage.

@@ -75,17 +75,58 @@ pub(crate) fn load(path: &Path) -> Result<Loaded, Failure> {
     Ok(Loaded { path: path.to_owned(), format, bytes: bytes.len() as u64, document })
 }
 
+/// Finds out before any work whether `outputs` can be written: each is a file of its own and none is of `inputs`, which
+/// would be lost, and the folder of each takes new files. Paths are named as on the command line.
+pub(crate) fn check_outputs(inputs: &[(&str, &Path)], outputs: &[(&str, &Path)]) -> Result<(), Failure> {
+    for (k, (name, path)) in outputs.iter().enumerate() {
+        let mut others = inputs.iter().chain(&outputs[..k]);
+        if let Some((other, _)) = others.find(|(_, other)| place(other) == place(path)) {
+            return Err(Failure::Usage(format!(
+                "{name} and {other} are the same file: {}; give another path",
+                path.display()
+            )));
+        }
+    }
+    outputs.iter().try_for_each(|(_, path)| {
+        ensure_writable(path).map_err(|error| Failure::file("file-not-written", "written", path, &error))
+    })
+}
+
+/// Where a file is, or would be if it were written, whatever the path's spelling.
+fn place(path: &Path) -> PathBuf {
+    let in_folder = || Some(folder_of(path).canonicalize().ok()?.join(path.file_name()?));
+    path.canonicalize().ok().or_else(in_folder).unwrap_or_else(|| path.to_owned())
+}
+
+/// The folder that `path` is in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Tries whether a file can be made beside `path`; what is there stays as it is.
+fn ensure_writable(path: &Path) -> std::io::Result<()> {
+    let target = place(path);
+    if target.is_dir() {
+        return Err(std::io::ErrorKind::IsADirectory.into());
+    }
+    if target.exists() && !target.is_file() {
+        return Ok(());
+    }
+    // An interruption waits for the lock, so that it finds no file or one that is gone.
+    let _outputs = outputs();
+    temporary_file(folder_of(&target)).and_then(tempfile::NamedTempFile::close)
+}
+
 /// Writes `bytes` to `path`: first to a temporary file beside it, which then takes its place, so that
 /// `path` never holds half of them.
 pub(crate) fn save(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error| Failure::file("file-not-written", "written", path, &error);
     // Through a link to the file it names; pipes and devices cannot be replaced and are written to.
-    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let target = place(path);
     if target.exists() && !target.is_file() {
         return fs::write(&target, bytes).map_err(failed);
     }
-    let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = temporary_file(folder).map_err(failed)?;
+    let mut file = temporary_file(folder_of(&target)).map_err(failed)?;
     outputs().unfinished = Some(file.path().to_owned());
     let filled = file.write_all(bytes).and_then(|()| file.as_file().sync_all());
     let mut outputs = outputs();

@@ -6,7 +6,7 @@ use hexmill::refine::{QuadOptions, refine_quads};
 
 use super::args::RefineArgs;
 use super::failure::Failure;
-use super::files::{format_of, load, save};
+use super::files::{check_outputs, format_of, load, save};
 use super::progress::Progress;
 use super::report::{FileReport, InputReport, MeshReport, OptionsReport, Report, peak_memory_bytes};
 
@@ -14,6 +14,12 @@ use super::report::{FileReport, InputReport, MeshReport, OptionsReport, Report, 
 pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     let output_format = format_of(&args.output)?;
     format_of(&args.input)?;
+    check_levels(args)?;
+    let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
+    let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
+    let report = args.report.as_deref().map(|path| ("--report", path));
+    let outputs: Vec<_> = std::iter::once(("--output", args.output.as_path())).chain(report).collect();
+    check_outputs(&inputs, &outputs)?;
     use_threads(args.threads)?;
     let progress = Progress::new(quiet);
 
@@ -52,6 +58,17 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
         print!("{}", in_words(args, &report));
     }
     args.report.as_deref().map_or(Ok(()), |path| report.save(path))
+}
+
+/// Refuses more levels than there may be.
+fn check_levels(args: &RefineArgs) -> Result<(), Failure> {
+    let most = args.max_levels.unwrap_or(QuadOptions::default().max_levels);
+    match args.levels.filter(|&levels| levels > most) {
+        None => Ok(()),
+        Some(levels) => Err(Failure::Usage(format!(
+            "--levels is {levels}, but --max-levels {most}; give fewer levels, or raise --max-levels"
+        ))),
+    }
 }
 
 /// Makes the library's work run on `threads` threads.

@@ -136,6 +136,14 @@ fn turned(x: f64, y: f64, z: f64) -> DQuat {
 }
 
 impl RegionArg {
+    /// The file that the region is read from, if any.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        match &self.shape {
+            ShapeArg::Ready(_) => None,
+            ShapeArg::Points { file, .. } | ShapeArg::Surface { file, .. } => Some(file),
+        }
+    }
+
     /// The region, with its file read if it names one.
     pub(crate) fn load(&self) -> Result<Region, Failure> {
         let shape = match &self.shape {
