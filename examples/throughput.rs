@@ -11,6 +11,10 @@ use hexmill::io::{AnyMesh, Format, read};
 use hexmill::mesh::mesh_hash;
 use hexmill::refine::{QuadOptions, refine_quads};
 
+/// The command line's allocator.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [surface, options, threads, runs] = arguments.as_slice() else {

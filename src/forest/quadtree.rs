@@ -8,6 +8,8 @@
 //!   r0---m0---r1        e_i joins r_i to r_{i+1}
 //! ```
 
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
 use rayon::prelude::*;
 
 use crate::geometry::Point;
@@ -15,6 +17,10 @@ use crate::mesh::{EdgeId, FaceId, NodeId};
 use crate::monitor::batches;
 use crate::template::quad::{SPLIT, place};
 use crate::{Cancelled, Monitor};
+
+/// Where fewer than one in so many elements of a level are split, their edges are sorted; elsewhere all edges of the
+/// level are looked through.
+const FEW: usize = 16;
 
 /// The elements of one level.
 #[derive(Debug, Default)]
@@ -85,6 +91,27 @@ impl LevelEdges {
         Self { of_element, ends, middle, halves, ..Self::default() }
     }
 
+    /// The edges of `marked` elements that nothing divides, in order.
+    fn undivided_of(&self, marked: &[u32]) -> Vec<EdgeId> {
+        let is_undivided = |e: &EdgeId| self.middle[e.index()] == UNDIVIDED;
+        let all = (0..self.ends.len() as u32).into_par_iter().map(EdgeId);
+        if marked.len() == self.of_element.len() {
+            return all.filter(is_undivided).collect();
+        }
+        let sides = |e: &u32| self.of_element[*e as usize];
+        if marked.len() * FEW < self.of_element.len() {
+            let mut undivided: Vec<EdgeId> = marked.iter().flat_map(sides).filter(is_undivided).collect();
+            undivided.par_sort_unstable();
+            undivided.dedup();
+            return undivided;
+        }
+        // Every thread sets flags to the same value, so that their order does not matter.
+        let is_side: Vec<AtomicBool> =
+            (0..self.ends.len()).into_par_iter().map(|_| AtomicBool::new(false)).collect();
+        marked.par_iter().flat_map_iter(sides).for_each(|side| is_side[side.index()].store(true, Relaxed));
+        all.filter(|e| is_side[e.index()].load(Relaxed) && is_undivided(e)).collect()
+    }
+
     /// The half of edge `e` at local node `corner` of an element that has it. Edge nodes are local nodes 1
     /// and 3, and the first half is theirs.
     fn half(&self, e: EdgeId, corner: usize) -> EdgeId {
@@ -144,26 +171,22 @@ impl QuadForest {
         Ok(())
     }
 
-    /// Divides the edges of the `marked` elements that nothing divides yet and gives each element its face
-    /// node; returns the first of the face nodes.
+    /// Divides the edges of the `marked` elements that nothing divides yet, in the order of the edges, and gives
+    /// each element its face node; returns the first of the face nodes.
     fn add_nodes(&mut self, depth: usize, marked: &[u32]) -> NodeId {
         let Level { elements, edges, .. } = &mut self.levels[depth];
-        let (first_node, first_split) = (self.positions.len(), edges.split.len());
-        for &e in marked {
-            for edge in edges.of_element[e as usize] {
-                let middle = &mut edges.middle[edge.index()];
-                if *middle == UNDIVIDED {
-                    *middle = NodeId::new(first_node + edges.split.len() - first_split);
-                    edges.split.push(edge);
-                }
-            }
+        let first_node = self.positions.len();
+        let mut divided = edges.undivided_of(marked);
+        for (k, edge) in divided.iter().enumerate() {
+            edges.middle[edge.index()] = NodeId::new(first_node + k);
         }
-        let divided = &edges.split[first_split..];
         grow(&mut self.positions, divided.len() + marked.len(), |old, k| match divided.get(k) {
             Some(edge) => midpoint(old, edges.ends[edge.index()]),
             None => center(old, elements[marked[k - divided.len()] as usize]),
         });
-        NodeId::new(first_node + divided.len())
+        let first_face_node = NodeId::new(first_node + divided.len());
+        edges.split.append(&mut divided);
+        first_face_node
     }
 
     /// Makes all edges of the levels that have refined elements.
