@@ -248,10 +248,12 @@ proptest! {
     fn if_a_child_is_wanted_so_is_its_parent(shape in any_shape(), corners in any_quad()) {
         let parent = element(corners);
         let wanted = overlaps(&shape, &parent);
+        // Smaller elements shrink by less: what is a touch of the parent can be more than one of a child.
+        let Some(smaller) = eroded(&shape, 2.0 * TOUCH * parent.longest) else { return Ok(()) };
         for child in children(&parent) {
-            prop_assert!(wanted || !overlaps(&shape, &child));
+            prop_assert!(wanted || !overlaps(&smaller, &child));
             for grandchild in children(&child) {
-                prop_assert!(wanted || !overlaps(&shape, &grandchild));
+                prop_assert!(wanted || !overlaps(&smaller, &grandchild));
             }
         }
     }
