@@ -2,6 +2,7 @@
 
 pub mod check;
 mod faces;
+mod grid;
 mod hash;
 mod hex;
 mod id;
@@ -16,6 +17,7 @@ mod volume;
 
 pub use check::{Defect, check_hexes, check_polygons, check_quads};
 pub use faces::Faces;
+pub use grid::{GridError, GridOptions, hex_grid};
 pub use hash::{MeshHash, mesh_hash};
 pub use hex::HexMesh;
 pub use id::{EdgeId, FaceId, HexId, NodeId};
