@@ -28,7 +28,7 @@ fn elements() -> Vec<SizedElement> {
     let element = |i, j| {
         let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
         let edges = (0..4).map(|k: usize| corners[k].distance(corners[(k + 1) % 4]));
-        SizedElement { corners, longest: edges.fold(0.0, f64::max), level: 9, root: FaceId(0) }
+        SizedElement { corners, longest: edges.fold(0.0, f64::max), level: 9, root: Some(FaceId(0)) }
     };
     (0..SIDE).flat_map(|j| (0..SIDE).map(move |i| element(i, j))).collect()
 }

@@ -10,11 +10,22 @@
 //! - A node is an edge node at one level only, the level of the elements that were made with it; for deeper
 //!   levels it is a corner like any other.
 //! - The order of nodes, edges and elements depends on the input alone, not on threads.
+//!
+//! A forest of octrees is held in the same way ([`HexForest`], section 3). Nodes are told apart by [`NodeKind`], and
+//! [`HexForest::close`] refines further what the rules of conforming refinement ask for.
 
 mod balance;
 mod base;
+mod closure;
+mod heirs;
+mod hex_base;
+mod octree;
 mod quadtree;
+#[cfg(test)]
+mod testing;
 
 pub use base::BaseError;
+pub use closure::{Admits, Closure, admits_method_one};
+pub use octree::{HexForest, HexLevel, NodeKind};
 pub use quadtree::{Level, QuadForest};
 pub(crate) use quadtree::{UNDIVIDED, center, grow, midpoint};

@@ -283,7 +283,7 @@ pub(crate) fn grow(points: &mut Vec<Point>, count: usize, make: impl Fn(&[Point]
 }
 
 /// Appends `more` to `all`, without a copy where `all` is empty.
-fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
+pub(super) fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
     if all.is_empty() {
         *all = more;
     } else {

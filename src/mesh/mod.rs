@@ -2,22 +2,28 @@
 
 pub mod check;
 mod faces;
+mod grid;
 mod hash;
 mod hex;
 mod id;
 pub mod numbering;
+mod orientation;
 mod polygon;
 mod quad;
 pub mod quality;
 mod tags;
 pub mod topology;
+mod volume;
 
-pub use check::{Defect, check_polygons, check_quads};
+pub use check::{Defect, check_hexes, check_polygons, check_quads};
 pub use faces::Faces;
+pub use grid::{GridError, GridOptions, hex_grid};
 pub use hash::{MeshHash, mesh_hash, polygon_hash};
 pub use hex::HexMesh;
 pub use id::{EdgeId, FaceId, HexId, NodeId};
+pub use orientation::{InvertedHexes, orient_hexes};
 pub use polygon::{Features, PolygonMesh};
 pub use quad::QuadMesh;
 pub use tags::{TagSet, Tags};
 pub use topology::Edges;
+pub use volume::{Volumes, hex_volume};

@@ -66,6 +66,64 @@ pub mod hex {
     pub const FACES: [[u8; 4]; 6] =
         [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [0, 4, 7, 3]];
 
+    /// By two corners that differ in one coordinate, the edge between them; [`NONE`] for others.
+    pub const EDGE_BETWEEN: [[u8; 8]; 8] = {
+        let (mut all, mut e) = ([[NONE; 8]; 8], 0);
+        while e < 12 {
+            let [a, b] = EDGES[e];
+            all[a as usize][b as usize] = e as u8;
+            all[b as usize][a as usize] = e as u8;
+            e += 1;
+        }
+        all
+    };
+
+    /// By two opposite corners of a face, the face; [`NONE`] for others.
+    pub const FACE_ACROSS: [[u8; 8]; 8] = {
+        let (mut all, mut f) = ([[NONE; 8]; 8], 0);
+        while f < 6 {
+            let mut k = 0;
+            while k < 4 {
+                all[FACES[f][k] as usize][FACES[f][(k + 2) % 4] as usize] = f as u8;
+                k += 1;
+            }
+            f += 1;
+        }
+        all
+    };
+
+    /// The edges around each face: edge `k` joins corners `k` and `k + 1` of the face.
+    pub const EDGES_OF_FACE: [[u8; 4]; 6] = {
+        let (mut all, mut f) = ([[NONE; 4]; 6], 0);
+        while f < 6 {
+            let mut k = 0;
+            while k < 4 {
+                all[f][k] = EDGE_BETWEEN[FACES[f][k] as usize][FACES[f][(k + 1) % 4] as usize];
+                k += 1;
+            }
+            f += 1;
+        }
+        all
+    };
+
+    /// The two faces at each edge, the lesser first.
+    pub const FACES_AT_EDGE: [[u8; 2]; 12] = {
+        let (mut all, mut f) = ([[NONE; 2]; 12], 0);
+        while f < 6 {
+            let mut k = 0;
+            while k < 4 {
+                let e = EDGES_OF_FACE[f][k] as usize;
+                all[e][if all[e][0] == NONE { 0 } else { 1 }] = f as u8;
+                k += 1;
+            }
+            f += 1;
+        }
+        all
+    };
+
+    /// No edge or face.
+    pub const NONE: u8 = u8::MAX;
+
     /// The 48 symmetries: `s[k]` is where corner `k` goes. The identity is first; the first 24 turn,
     /// the others mirror.
     pub const SYMMETRIES: [[u8; 8]; 48] = symmetries();
@@ -164,6 +222,24 @@ mod tests {
             assert!((0..4).all(|k| {
                 differing(hex::CORNERS[face[k] as usize], hex::CORNERS[face[(k + 1) % 4] as usize]) == 1
             }));
+        }
+    }
+
+    #[test]
+    fn tables_between_corners_edges_and_faces_agree() {
+        for a in 0..8 {
+            for b in 0..8 {
+                let apart = differing(hex::CORNERS[a], hex::CORNERS[b]);
+                let (edge, face) = (hex::EDGE_BETWEEN[a][b], hex::FACE_ACROSS[a][b]);
+                assert_eq!((edge != hex::NONE, face != hex::NONE), (apart == 1, apart == 2));
+                let has = |nodes: &[u8]| nodes.contains(&(a as u8)) && nodes.contains(&(b as u8));
+                assert!(edge == hex::NONE || has(&hex::EDGES[usize::from(edge)]));
+                assert!(face == hex::NONE || has(&hex::FACES[usize::from(face)]));
+            }
+        }
+        for (e, faces) in hex::FACES_AT_EDGE.iter().enumerate() {
+            assert!(faces[0] < faces[1] && faces[1] != hex::NONE);
+            assert!(faces.iter().all(|&f| hex::EDGES_OF_FACE[usize::from(f)].contains(&(e as u8))));
         }
     }
 

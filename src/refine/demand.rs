@@ -53,7 +53,8 @@ impl Demand {
 
     /// True if an element of `level`, part of input face `root`, is wanted finer.
     pub fn wants(&self, corners: [Point; 4], longest: f64, level: u8, root: FaceId) -> bool {
-        self.is_uniform_at(level) || self.field.wants(&SizedElement { corners, longest, level, root })
+        self.is_uniform_at(level)
+            || self.field.wants(&SizedElement { corners, longest, level, root: Some(root) })
     }
 }
 

@@ -14,6 +14,9 @@ pub enum SizingError {
     /// The angle an edge is out of range.
     #[error("the curvature is {0} degrees an edge; give more than 0 and at most 180")]
     Curvature(f64),
+    /// Curvature was asked for in a hex mesh.
+    #[error("hexes have no curvature; leave it out, or give the surface as a region")]
+    CurvatureOfHexes,
     /// The gradation is out of range.
     #[error("the gradation is {0}; give more than 1 and at most 2")]
     Gradation(f64),
@@ -90,6 +93,7 @@ impl SizingError {
         match self {
             Self::EdgeLength(_) => "edge-length-out-of-range",
             Self::Curvature(_) => "curvature-out-of-range",
+            Self::CurvatureOfHexes => "curvature-needs-surface",
             Self::Gradation(_) => "gradation-out-of-range",
             Self::Cancelled(_) => "cancelled",
             Self::Region { fault, .. } => match fault {

@@ -6,22 +6,23 @@ use super::curvature::turn_per_length;
 use super::error::{SizingError, validate};
 use super::overlap::{Overlap, Probe};
 use super::{Region, Target};
-use crate::geometry::{BoxIndex, Point};
-use crate::mesh::{FaceId, PolygonMesh};
+use crate::geometry::{BoxIndex, Corners, Point};
+use crate::mesh::numbering::hex::EDGES;
+use crate::mesh::{FaceId, HexMesh, PolygonMesh};
 use crate::monitor::batches;
 use crate::{Cancelled, Monitor};
 
-/// An element that asks whether it is to be refined.
+/// An element that asks whether it is to be refined: a quad with 4 corners, a hex with 8.
 #[derive(Clone, Copy, Debug)]
-pub struct SizedElement {
-    /// The positions of its nodes, in order around it.
-    pub corners: [Point; 4],
+pub struct SizedElement<const N: usize = 4> {
+    /// The positions of its nodes, in the order of the reference element.
+    pub corners: [Point; N],
     /// The length of its longest edge.
     pub longest: f64,
     /// Its refinement level.
     pub level: u8,
-    /// The input face that it is part of.
-    pub root: FaceId,
+    /// The input face that it is part of, which has the limit of curvature; a hex is part of none.
+    pub root: Option<FaceId>,
 }
 
 /// What a size field is made of. Lengths are in model units.
@@ -82,19 +83,46 @@ impl SizeField {
         monitor: &dyn Monitor,
     ) -> Result<Self, SizingError> {
         validate(&options)?;
-        let regions: Vec<Graded> = options.regions.iter().map(Graded::new).collect();
         let by_face = match options.curvature {
             Some(angle) => limits_by_curvature(input, angle, monitor)?,
             None => Vec::new(),
         };
-        let edge_length = options.edge_length.map_or(f64::INFINITY, limit);
-        let sizes = regions.iter().map(Graded::finest);
         let mut longest = 0.0_f64;
         for batch in batches(input.face_count(), monitor) {
             let children = batch?.into_par_iter().map(|f| longest_child_edge(input, f));
             longest = longest.max(children.reduce(|| 0.0, f64::max));
         }
-        Ok(Self {
+        Ok(Self::over(by_face, longest, options))
+    }
+
+    /// As [`SizeField::new`], for a hex mesh.
+    ///
+    /// # Errors
+    /// If an option or a region is out of range; hexes have no curvature.
+    ///
+    /// # Panics
+    /// If `input` has node ids out of range.
+    pub fn of_hexes(input: &HexMesh, options: SizeOptions<'_>) -> Result<Self, SizingError> {
+        validate(&options)?;
+        if options.curvature.is_some() {
+            return Err(SizingError::CurvatureOfHexes);
+        }
+        let edges = input.hexes.par_iter().map(|hex| {
+            let at = hex.map(|n| input.positions[n.index()]);
+            let lengths = EDGES.map(|[a, b]| at[usize::from(a)].distance_squared(at[usize::from(b)]));
+            lengths.into_iter().fold(0.0, f64::max)
+        });
+        // An edge of a child is half of a mean of edges of its parent.
+        let longest = 0.5 * edges.reduce(|| 0.0, f64::max).sqrt();
+        Ok(Self::over(Vec::new(), longest, options))
+    }
+
+    /// A field of valid options over cells whose children's longest edge is `longest`.
+    fn over(by_face: Vec<f64>, longest: f64, options: SizeOptions<'_>) -> Self {
+        let regions: Vec<Graded> = options.regions.iter().map(Graded::new).collect();
+        let edge_length = options.edge_length.map_or(f64::INFINITY, limit);
+        let sizes = regions.iter().map(Graded::finest);
+        Self {
             finest: by_face.iter().copied().chain(sizes).fold(edge_length, f64::min),
             deepest: regions.iter().map(Graded::deepest).max().unwrap_or(0),
             longest,
@@ -103,12 +131,12 @@ impl SizeField {
             edge_length,
             by_face,
             regions,
-        })
+        }
     }
 
     /// True if no element of this level or deeper is to be refined, whatever its place.
     ///
-    /// Edges of a quad's children are at most half as long as its longest edge, so below some level all
+    /// Edges of an element's children are at most half as long as its longest edge, so below some level all
     /// elements are shorter than every target.
     pub fn is_idle_from(&self, level: u8) -> bool {
         let longest = match level {
@@ -119,17 +147,23 @@ impl SizeField {
     }
 
     /// True if the element is to be refined.
-    pub fn wants(&self, element: &SizedElement) -> bool {
+    pub fn wants<const N: usize>(&self, element: &SizedElement<N>) -> bool
+    where
+        [Point; N]: Corners,
+    {
         let longest = element.longest;
         if longest <= self.finest && element.level >= self.deepest {
             return false;
         }
         longest > self.edge_length
-            || self.by_face.get(element.root.index()).is_some_and(|&limit| longest > limit)
+            || element.root.and_then(|f| self.by_face.get(f.index())).is_some_and(|&limit| longest > limit)
             || self.some_region_wants(element)
     }
 
-    fn some_region_wants(&self, element: &SizedElement) -> bool {
+    fn some_region_wants<const N: usize>(&self, element: &SizedElement<N>) -> bool
+    where
+        [Point; N]: Corners,
+    {
         let probe = Probe::new(element);
         let wants = |region: &Graded| region.wants(element, &probe, self.spread);
         match &self.index {
@@ -170,7 +204,10 @@ impl Graded {
         }
     }
 
-    fn wants(&self, element: &SizedElement, probe: &Probe, spread: f64) -> bool {
+    fn wants<const N: usize>(&self, element: &SizedElement<N>, probe: &Probe<N>, spread: f64) -> bool
+    where
+        [Point; N]: Corners,
+    {
         match self.target {
             Target::Level(level) => element.level < level && self.overlap.is_met(probe, 0.0),
             Target::Size(size) => {

@@ -10,8 +10,8 @@
 //! radius about points, the distance from a surface) counts as at least what the element was shrunk by. So a flat box,
 //! a point or a surface refines the elements that it lies in; one that lies in an edge refines all elements at it.
 //!
-//! **Elements** are the hulls of their corners (`geometry::QuadHull`): for quads that are not flat those of both
-//! diagonals and what is between them.
+//! **Elements**, quads and hexes, are the hulls of their corners (`geometry::Hull`): for quads that are not flat
+//! those of both diagonals and what is between them.
 //!
 //! **Grading.** The distance of element and shape is asked for in the same way: the element meets the shape grown
 //! by `reach`.
@@ -20,8 +20,7 @@ use glam::DQuat;
 
 use super::{Shape, SizedElement};
 use crate::geometry::{
-    Aabb, BoxIndex, CenteredBox, CenteredCylinder, Frame, Point, QuadHull, Solid, closest_on_triangle,
-    hull_within,
+    Aabb, BoxIndex, CenteredBox, CenteredCylinder, Corners, Frame, Hull, Point, Solid, closest_on_triangle,
 };
 
 /// An overlap thinner than this share of an element's width is a touch: regions and nodes are often given with four
@@ -33,8 +32,8 @@ pub(super) const TOUCH: f64 = 1e-4;
 const COINCIDENT: f64 = 1e-8;
 
 /// What every shape wants to know of an element.
-pub(super) struct Probe {
-    corners: [Point; 4],
+pub(super) struct Probe<const N: usize> {
+    corners: [Point; N],
     bounds: Aabb,
     /// The mean of the corners; shrinking does not move it.
     middle: Point,
@@ -42,10 +41,14 @@ pub(super) struct Probe {
     radius: f64,
 }
 
-impl Probe {
-    pub(super) fn new(element: &SizedElement) -> Self {
+impl<const N: usize> Probe<N>
+where
+    [Point; N]: Corners,
+{
+    pub(super) fn new(element: &SizedElement<N>) -> Self {
         let corners = element.corners;
-        let middle = (corners[0] + corners[1] + (corners[2] + corners[3])) * 0.25;
+        let pairs = corners.chunks(2).map(|pair| pair.iter().sum::<Point>());
+        let middle = pairs.sum::<Point>() / N as f64;
         let squared = corners.iter().fold(0.0, |m: f64, c| m.max(c.distance_squared(middle)));
         Self { corners, bounds: Aabb::around(&corners), middle, radius: squared.sqrt() }
     }
@@ -55,8 +58,8 @@ impl Probe {
         self.bounds.grown(reach + self.least_extent())
     }
 
-    fn shrunk(&self) -> QuadHull {
-        QuadHull::new(self.corners.map(|c| c + (self.middle - c) * TOUCH))
+    fn shrunk(&self) -> <[Point; N] as Corners>::Hull {
+        self.corners.map(|c| c + (self.middle - c) * TOUCH).hull()
     }
 
     /// The least extent that a shape has for this element: as far as shrinking moved a corner.
@@ -140,13 +143,19 @@ impl Overlap {
     }
 
     /// True if the element overlaps the shape by more than a touch, or is nearer to it than `reach`.
-    pub(super) fn is_met(&self, element: &Probe, reach: f64) -> bool {
+    pub(super) fn is_met<const N: usize>(&self, element: &Probe<N>, reach: f64) -> bool
+    where
+        [Point; N]: Corners,
+    {
         self.bounds.touches(&element.bounds_within(reach)) && self.shape.is_met(element, reach)
     }
 }
 
 impl Prepared {
-    fn is_met(&self, element: &Probe, reach: f64) -> bool {
+    fn is_met<const N: usize>(&self, element: &Probe<N>, reach: f64) -> bool
+    where
+        [Point; N]: Corners,
+    {
         let (least, coincident) = (element.least_extent(), element.coincident());
         match self {
             Self::Box { frame, half } => {
@@ -168,14 +177,15 @@ impl Prepared {
                     index,
                     distance,
                     |i| points[i],
-                    |hull, i| hull.within(points[i], distance),
+                    |hull, i| hull.is_near(points[i], distance),
                 )
             }
             Self::Surface { triangles, index, distance } => {
                 let distance = distance.max(least) + coincident + reach;
                 let closest = |i: usize| closest_on_triangle(element.middle, triangles[i]);
-                let near = |hull: &QuadHull, i: usize| hull_within(&hull.corners, &triangles[i], distance);
-                some_is_near(element, index, distance, closest, near)
+                some_is_near(element, index, distance, closest, |hull, i| {
+                    hull.comes_within(&triangles[i], distance)
+                })
             }
         }
     }
@@ -185,13 +195,16 @@ impl Prepared {
 /// point that is closest to the element's middle; `is_near` tells of it exactly.
 ///
 /// Most elements that are met have something near their middle, so the cube in the ball about it is searched first.
-fn some_is_near(
-    element: &Probe,
+fn some_is_near<const N: usize>(
+    element: &Probe<N>,
     index: &BoxIndex,
     distance: f64,
     closest: impl Fn(usize) -> Point,
-    is_near: impl Fn(&QuadHull, usize) -> bool,
-) -> bool {
+    is_near: impl Fn(&<[Point; N] as Corners>::Hull, usize) -> bool,
+) -> bool
+where
+    [Point; N]: Corners,
+{
     let gap = |i: usize| closest(i).distance_squared(element.middle);
     let cube = Aabb { min: element.middle, max: element.middle }.grown(distance / 3.0_f64.sqrt());
     if index.touching(&cube).any(|i| gap(i) <= distance * distance) {
@@ -208,7 +221,10 @@ fn some_is_near(
 
 /// True if the shrunk element comes as near to a solid in `frame` as `reach`: told by its middle and its circle if
 /// they can.
-fn solid_is_met(solid: &impl Solid, frame: &Frame, element: &Probe, reach: f64) -> bool {
+fn solid_is_met<const N: usize>(solid: &impl Solid, frame: &Frame, element: &Probe<N>, reach: f64) -> bool
+where
+    [Point; N]: Corners,
+{
     let middle = frame.local(element.middle);
     if solid.holds(middle) {
         return true;
@@ -216,15 +232,18 @@ fn solid_is_met(solid: &impl Solid, frame: &Frame, element: &Probe, reach: f64) 
     if !solid.grown(reach + element.radius).holds(middle) {
         return false;
     }
-    let hull = element.shrunk().map(|p| frame.local(p));
-    if reach > 0.0 { hull_within(&hull.corners, solid, reach) } else { solid.meets(&hull) }
+    let hull = element.shrunk().moved(|p| frame.local(p));
+    if reach > 0.0 { hull.comes_within(solid, reach) } else { hull.meets(solid) }
 }
 
 /// True if the shrunk element comes as near to `p` as `distance`: told by its middle or its circle if they can.
-fn is_near(element: &Probe, p: Point, distance: f64) -> bool {
+fn is_near<const N: usize>(element: &Probe<N>, p: Point, distance: f64) -> bool
+where
+    [Point; N]: Corners,
+{
     let squared = element.middle.distance_squared(p);
     let far = distance + element.radius;
-    squared <= distance * distance || squared <= far * far && element.shrunk().within(p, distance)
+    squared <= distance * distance || squared <= far * far && element.shrunk().is_near(p, distance)
 }
 
 /// The rotation that a quaternion of any length but 0 stands for.

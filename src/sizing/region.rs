@@ -67,14 +67,14 @@ pub enum Shape {
         /// Its radius.
         radius: f64,
     },
-    /// Everything within `radius` of one of the points (the paper's governing points, section 3.2).
+    /// Everything within `radius` of one of the points (the paper's governing points, section 3.2 and figure 14).
     Points {
         /// The points.
         points: Vec<Point>,
         /// The distance within which elements are refined; 0: elements that hold a point.
         radius: f64,
     },
-    /// Everything within `distance` of a triangle surface.
+    /// Everything within `distance` of a triangle surface (the paper's governing surface, figure 15).
     Surface {
         /// Its nodes.
         positions: Vec<Point>,

@@ -1,8 +1,8 @@
-//! What can be wrong with a surface mesh.
+//! What can be wrong with a mesh.
 
 use serde::Serialize;
 
-use crate::mesh::{FaceId, NodeId};
+use crate::mesh::{FaceId, HexId, NodeId};
 
 /// One thing wrong with a mesh, with the ids at fault. Ids count from 0.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -85,6 +85,90 @@ pub enum Defect {
         /// The face.
         face: FaceId,
     },
+    /// A hex names a node that does not exist.
+    HexNodeOutOfRange {
+        /// The hex.
+        hex: HexId,
+        /// What it names.
+        node: NodeId,
+        /// How many nodes there are.
+        nodes: u32,
+    },
+    /// A hex has a node twice.
+    HexRepeatedNode {
+        /// The hex.
+        hex: HexId,
+        /// The node.
+        node: NodeId,
+    },
+    /// A hex is inside out at some of its corners.
+    InvertedHex {
+        /// The hex.
+        hex: HexId,
+        /// At how many.
+        corners: u32,
+    },
+    /// Two hexes have the same set of nodes.
+    SameHexes {
+        /// The hexes, the earlier first.
+        hexes: [HexId; 2],
+    },
+    /// Three or more hexes have the same face.
+    NonManifoldFace {
+        /// The face.
+        face: [NodeId; 4],
+        /// The hexes.
+        hexes: Vec<HexId>,
+    },
+    /// Two hexes lie on the same side of their common face.
+    FaceDisagreement {
+        /// The face, as both walk it.
+        face: [NodeId; 4],
+        /// The hexes.
+        hexes: [HexId; 2],
+    },
+    /// Two hexes go around the same four nodes in different orders.
+    CrossedFace {
+        /// The face as the first hex walks it.
+        face: [NodeId; 4],
+        /// And as the second does.
+        other: [NodeId; 4],
+        /// The hexes.
+        hexes: [HexId; 2],
+    },
+    /// Two faces have three nodes in common.
+    ThreeSharedNodes {
+        /// The faces.
+        faces: [[NodeId; 4]; 2],
+        /// A hex of each.
+        hexes: [HexId; 2],
+    },
+    /// A node lies inside a boundary face of which it is no corner, so that the hex there and those around the node
+    /// do not fit together.
+    HangingNodeInFace {
+        /// The node.
+        node: NodeId,
+        /// The face.
+        face: [NodeId; 4],
+        /// The face's hex.
+        hex: HexId,
+    },
+    /// One boundary face, or more than two, at an edge of a hex mesh.
+    NonManifoldRim {
+        /// The ends of the edge.
+        edge: [NodeId; 2],
+        /// The hexes of the boundary faces.
+        hexes: Vec<HexId>,
+    },
+    /// The hexes around a node fill neither a ball nor, on the boundary, half of one: its link is no sphere or disc.
+    OddLink {
+        /// The node.
+        node: NodeId,
+        /// The Euler characteristic of its link: 2 for a sphere, 1 for a disc.
+        euler: i32,
+        /// Is the node on the boundary?
+        boundary: bool,
+    },
 }
 
 /// How bad a [`Defect`] is.
@@ -95,7 +179,8 @@ pub enum Severity {
     /// inconsistently oriented surfaces are a matter of what is modelled.
     Note,
     /// The mesh is not a conforming mesh: two faces meet in something other than nothing, a common
-    /// node or a common edge, or a face is no polygon at all.
+    /// node or a common edge, or a face is no polygon at all; two hexes meet in something else than nothing or a
+    /// common node, edge or face, or a hex is inside out.
     Error,
 }
 
@@ -115,6 +200,17 @@ impl Defect {
             Self::NonManifoldNode { .. } => "nonManifoldNode",
             Self::Disagreement { .. } => "disagreement",
             Self::ZeroArea { .. } => "zeroArea",
+            Self::HexNodeOutOfRange { .. } => "hexNodeOutOfRange",
+            Self::HexRepeatedNode { .. } => "hexRepeatedNode",
+            Self::InvertedHex { .. } => "invertedHex",
+            Self::SameHexes { .. } => "sameHexes",
+            Self::NonManifoldFace { .. } => "nonManifoldFace",
+            Self::FaceDisagreement { .. } => "faceDisagreement",
+            Self::CrossedFace { .. } => "crossedFace",
+            Self::ThreeSharedNodes { .. } => "threeSharedNodes",
+            Self::HangingNodeInFace { .. } => "hangingNodeInFace",
+            Self::NonManifoldRim { .. } => "nonManifoldRim",
+            Self::OddLink { .. } => "oddLink",
         }
     }
 
@@ -127,12 +223,23 @@ impl Defect {
             | Self::NotFinite { .. }
             | Self::RepeatedNode { .. }
             | Self::SameNodes { .. }
-            | Self::HangingNode { .. } => Severity::Error,
+            | Self::HangingNode { .. }
+            | Self::HexNodeOutOfRange { .. }
+            | Self::HexRepeatedNode { .. }
+            | Self::InvertedHex { .. }
+            | Self::SameHexes { .. }
+            | Self::NonManifoldFace { .. }
+            | Self::FaceDisagreement { .. }
+            | Self::CrossedFace { .. }
+            | Self::ThreeSharedNodes { .. }
+            | Self::HangingNodeInFace { .. } => Severity::Error,
             Self::UnusedNode { .. }
             | Self::NonManifoldEdge { .. }
             | Self::NonManifoldNode { .. }
             | Self::Disagreement { .. }
-            | Self::ZeroArea { .. } => Severity::Note,
+            | Self::ZeroArea { .. }
+            | Self::NonManifoldRim { .. }
+            | Self::OddLink { .. } => Severity::Note,
         }
     }
 
@@ -171,18 +278,56 @@ impl std::fmt::Display for Defect {
                 write!(f, "faces {g} and {h} both walk the edge from {a} to {b}, so their normals disagree")
             }
             Self::ZeroArea { face } => write!(f, "face {face} has no area"),
+            Self::HexNodeOutOfRange { hex, node, nodes } => {
+                write!(f, "hex {hex} names node {node}, but there are only {nodes} nodes")
+            }
+            Self::HexRepeatedNode { hex, node } => write!(f, "hex {hex} has node {node} twice"),
+            Self::InvertedHex { hex, corners } => write!(f, "hex {hex} is inside out at {corners} corners"),
+            Self::SameHexes { hexes: [a, b] } => write!(f, "hexes {a} and {b} have the same nodes"),
+            Self::NonManifoldFace { face, hexes } => {
+                write!(f, "{} hexes have the face {}: {}", hexes.len(), around(face), listed(hexes))
+            }
+            Self::FaceDisagreement { face, hexes: [a, b] } => {
+                write!(f, "hexes {a} and {b} lie on the same side of their face {}", around(face))
+            }
+            Self::CrossedFace { face, other, hexes: [a, b] } => {
+                write!(f, "hex {a} has the face {}, and hex {b} {}", around(face), around(other))
+            }
+            Self::ThreeSharedNodes { faces: [g, h], hexes: [a, b] } => {
+                let (g, h) = (around(g), around(h));
+                write!(f, "the faces {g} of hex {a} and {h} of hex {b} have three nodes in common")
+            }
+            Self::HangingNodeInFace { node, face, hex } => {
+                write!(f, "node {node} hangs inside the face {} of hex {hex}", around(face))
+            }
+            Self::NonManifoldRim { edge: [a, b], hexes } => {
+                let (count, hexes) = (hexes.len(), listed(hexes));
+                write!(f, "{count} boundary faces meet at the edge {a}\u{2013}{b}, of hexes {hexes}")
+            }
+            Self::OddLink { node, euler, boundary } => {
+                let (whole, wanted) = if *boundary { ("half a ball", 1) } else { ("a ball", 2) };
+                write!(
+                    f,
+                    "the hexes around node {node} do not fill {whole}: its link has Euler number {euler}, not {wanted}"
+                )
+            }
         }
     }
 }
 
 /// The first few ids in words.
-fn listed(faces: &[FaceId]) -> String {
+pub(in crate::mesh) fn listed(ids: &[impl std::fmt::Display]) -> String {
     const SHOWN: usize = 8;
-    let mut words: Vec<String> = faces.iter().take(SHOWN).map(ToString::to_string).collect();
-    if faces.len() > SHOWN {
+    let mut words: Vec<String> = ids.iter().take(SHOWN).map(ToString::to_string).collect();
+    if ids.len() > SHOWN {
         words.push("\u{2026}".into());
     }
     words.join(", ")
+}
+
+/// A face by its nodes.
+fn around([a, b, c, d]: &[NodeId; 4]) -> String {
+    format!("{a}\u{2013}{b}\u{2013}{c}\u{2013}{d}")
 }
 
 /// How many defects of one kind there are.

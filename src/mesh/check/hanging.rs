@@ -1,12 +1,12 @@
-//! Nodes inside edges. Reads positions, which is why it stands apart from topology.
+//! Nodes inside edges and faces. Reads positions, which is why it stands apart from topology.
 
 use rayon::prelude::*;
 use rstar::{AABB, RTree, RTreeObject};
 
 use super::{CHUNK, Defect};
-use crate::geometry::Point;
+use crate::geometry::{Aabb, Point};
 use crate::mesh::topology::{Edges, used_nodes};
-use crate::mesh::{Faces, NodeId};
+use crate::mesh::{Faces, HexId, NodeId};
 
 /// Every node that lies inside an edge of which it is no end, among all edges: on a surface that passes,
 /// no cracks hide where several sheets meet either. Costs several times what a check costs, which looks
@@ -34,6 +34,79 @@ pub(super) fn inside(positions: &[Point], used: &[bool], edges: Vec<[NodeId; 2]>
         edges.into_iter().map(move |edge| Defect::HangingNode { node, edge })
     });
     found.collect()
+}
+
+/// The `used` nodes that lie inside one of `faces` of hexes, in order of nodes, then of hexes.
+pub(super) fn inside_faces(
+    positions: &[Point],
+    used: &[bool],
+    faces: Vec<(HexId, [NodeId; 4])>,
+) -> Vec<Defect> {
+    if faces.is_empty() {
+        return Vec::new();
+    }
+    let patches = faces.into_iter().map(|(hex, nodes)| Patch::new(positions, hex, nodes));
+    let tree = RTree::bulk_load(patches.collect());
+    let nodes = positions.par_iter().enumerate().with_min_len(CHUNK).filter(|&(n, _)| used[n]);
+    let found = nodes.flat_map_iter(|(n, &p)| {
+        let node = NodeId::new(n);
+        let near = tree.locate_in_envelope_intersecting(AABB::from_point(p.to_array()));
+        let mut faces: Vec<_> = near.filter(|f| f.holds(positions, node)).map(|f| (f.hex, f.nodes)).collect();
+        faces.sort_unstable();
+        faces.into_iter().map(move |(hex, face)| Defect::HangingNodeInFace { node, face, hex })
+    });
+    found.collect()
+}
+
+/// A bilinear face.
+struct Patch {
+    hex: HexId,
+    nodes: [NodeId; 4],
+    envelope: AABB<[f64; 3]>,
+}
+
+/// Steps towards the point of a patch that is closest to a node: Gauss and Newton's double the digits each time.
+const STEPS: usize = 8;
+
+impl Patch {
+    fn new(positions: &[Point], hex: HexId, nodes: [NodeId; 4]) -> Self {
+        let bounds = Aabb::around(&nodes.map(|n| positions[n.index()]));
+        let bounds = bounds.grown(NEAR * bounds.diagonal());
+        Self { hex, nodes, envelope: AABB::from_corners(bounds.min.to_array(), bounds.max.to_array()) }
+    }
+
+    fn holds(&self, positions: &[Point], node: NodeId) -> bool {
+        if self.nodes.contains(&node) {
+            return false;
+        }
+        let [a, b, c, d] = self.nodes.map(|n| positions[n.index()]);
+        let p = positions[node.index()];
+        let (along, across, twist) = (b - a, d - a, a - b + (c - d));
+        let (mut u, mut v) = (0.5, 0.5);
+        let gap = |u: f64, v: f64| p - (a + u * along + v * across + u * v * twist);
+        for _ in 0..STEPS {
+            let (by_u, by_v, gap) = (along + v * twist, across + u * twist, gap(u, v));
+            let (uu, uv, vv) = (by_u.dot(by_u), by_u.dot(by_v), by_v.dot(by_v));
+            let (gu, gv, determinant) = (by_u.dot(gap), by_v.dot(gap), uu * vv - uv * uv);
+            if determinant <= 0.0 {
+                return false;
+            }
+            u += (gu * vv - gv * uv) / determinant;
+            v += (gv * uu - gu * uv) / determinant;
+        }
+        let inner = NEAR..1.0 - NEAR;
+        inner.contains(&u)
+            && inner.contains(&v)
+            && gap(u, v).length() < NEAR * (c - a).length().max((d - b).length())
+    }
+}
+
+impl RTreeObject for Patch {
+    type Envelope = AABB<[f64; 3]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        self.envelope
+    }
 }
 
 struct Segment {

@@ -1,7 +1,7 @@
-//! Is a surface mesh conforming, and what else is there to know of it?
+//! Is a mesh conforming, and what else is there to know of it?
 //!
-//! [`check_quads`] and [`check_polygons`] walk every invariant and give each [`Defect`] with its ids;
-//! the command line, the tests and the page all show what they find. In this order:
+//! [`check_quads`], [`check_polygons`] and [`check_hexes`] walk every invariant and give each [`Defect`] with its
+//! ids; the command line, the tests and the page all show what they find. For surfaces in this order:
 //!
 //! 1. the faces' table, node ids and numbers of nodes (if these fail, nothing below is looked at);
 //! 2. coordinates are finite;
@@ -15,10 +15,13 @@
 
 mod defect;
 mod hanging;
+mod hexes;
 mod same_nodes;
 
+pub(super) use defect::listed;
 pub use defect::{Defect, DefectCount, Severity, summary};
 pub use hanging::hanging_nodes;
+pub use hexes::check_hexes;
 
 use rayon::prelude::*;
 

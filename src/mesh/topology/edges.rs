@@ -1,5 +1,6 @@
 //! The unique edges of a surface.
 
+use super::NodeSets;
 use crate::mesh::{EdgeId, Faces, NodeId, PolygonMesh, QuadMesh};
 use crate::monitor::batches;
 use crate::{Cancelled, Monitor, Silent};
@@ -58,18 +59,19 @@ impl Edges {
     /// If the monitor stops it.
     pub fn monitored(mesh: &impl Faces, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let corners = mesh.corners();
-        let mut lists = Lists::new(mesh.node_count(), corners);
+        // A closed surface has two corners an edge.
+        let mut sets = NodeSets::new(mesh.node_count(), corners, corners.len() / 2);
         let mut of_corner = Vec::with_capacity(corners.len());
         for batch in batches(mesh.face_count(), monitor) {
             for f in batch? {
                 let face = mesh.nodes_of(f);
                 for (i, &a) in face.iter().enumerate() {
                     let b = face.get(i + 1).copied().unwrap_or(face[0]);
-                    of_corner.push(lists.edge(a, b));
+                    of_corner.push(EdgeId(sets.number([a, b])));
                 }
             }
         }
-        Ok(Self { ends: lists.ends, of_corner })
+        Ok(Self { ends: sets.into_nodes(), of_corner })
     }
 
     /// Number of edges.
@@ -80,56 +82,6 @@ impl Edges {
     /// True if there is no edge.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
-    }
-}
-
-/// No edge: the end of a list.
-const NONE: u32 = u32::MAX;
-
-/// Per node a list of edges, threaded through the edges themselves.
-struct Lists {
-    /// Faces at each node.
-    degree: Vec<u32>,
-    /// The newest edge in each node's list.
-    head: Vec<u32>,
-    /// The edge that follows each edge in its list.
-    next: Vec<u32>,
-    ends: Vec<[NodeId; 2]>,
-}
-
-impl Lists {
-    fn new(nodes: usize, corners: &[NodeId]) -> Self {
-        let mut degree = vec![0u32; nodes];
-        for c in corners {
-            degree[c.index()] += 1;
-        }
-        // A closed surface has two corners an edge.
-        let expected = corners.len() / 2 + corners.len() / 32;
-        Self {
-            degree,
-            head: vec![NONE; nodes],
-            next: Vec::with_capacity(expected),
-            ends: Vec::with_capacity(expected),
-        }
-    }
-
-    /// The edge between `a` and `b`, made on first sight.
-    fn edge(&mut self, a: NodeId, b: NodeId) -> EdgeId {
-        let key = |n: NodeId| (self.degree[n.index()], n);
-        let owner = if key(b) < key(a) { b } else { a }.index();
-        let mut e = self.head[owner];
-        while e != NONE {
-            let ends = self.ends[e as usize];
-            if ends == [b, a] || ends == [a, b] {
-                return EdgeId(e);
-            }
-            e = self.next[e as usize];
-        }
-        let new = EdgeId::new(self.ends.len());
-        self.ends.push([a, b]);
-        self.next.push(self.head[owner]);
-        self.head[owner] = new.0;
-        new
     }
 }
 

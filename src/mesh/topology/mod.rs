@@ -1,15 +1,22 @@
-//! Adjacency, boundary, components, orientation: what can be said of a surface without positions.
+//! Adjacency, boundary, components, orientation: what can be said of a mesh without positions.
 
+mod bins;
 mod edges;
-mod hex_boundary;
+mod hex_report;
+mod hexes;
+mod node_sets;
 mod report;
 mod sets;
 mod uses;
 
 pub use edges::Edges;
-pub use hex_boundary::hex_boundary;
+pub use hex_report::{HexReport, hex_report};
+pub use hexes::{HexEdges, HexFaces, Side, hex_boundary, hex_of, side_nodes};
 pub use report::{SurfaceReport, surface_report, two_colouring};
 pub use uses::EdgeUses;
 
+pub(crate) use bins::Bins;
+pub(crate) use hex_report::{Links, boundary_faces_at, faces_at_use};
+pub(crate) use node_sets::NodeSets;
 pub(crate) use report::{disagrees, edge_ids, non_manifold_nodes, used_nodes};
 pub(crate) use sets::Sets;

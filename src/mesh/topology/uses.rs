@@ -1,40 +1,23 @@
 //! Which faces meet at an edge.
 
+use super::Bins;
 use crate::mesh::{EdgeId, Edges};
 
 /// For each edge the corners that use it, in ascending order: one on the boundary, two inside a
 /// manifold surface, more where sheets meet. Corner `k` walks its edge forwards if the mesh's corner
 /// `k` equals `ends[0]` of the edge.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct EdgeUses {
-    /// Where each edge's corners start in `corners`, and the end of the last.
-    offsets: Vec<u32>,
-    corners: Vec<u32>,
-}
+pub struct EdgeUses(Bins);
 
 impl EdgeUses {
-    /// Turns `edges.of_corner` around, by a counting sort.
+    /// Turns `edges.of_corner` around.
     pub fn of(edges: &Edges) -> Self {
-        let mut offsets = vec![0u32; edges.len() + 1];
-        for e in &edges.of_corner {
-            offsets[e.index()] += 1;
-        }
-        let mut end = 0;
-        for count in &mut offsets {
-            end += *count;
-            *count = end;
-        }
-        let mut corners = vec![0u32; edges.of_corner.len()];
-        for (k, e) in edges.of_corner.iter().enumerate().rev() {
-            offsets[e.index()] -= 1;
-            corners[offsets[e.index()] as usize] = u32::try_from(k).expect("more than 2^32 corners");
-        }
-        Self { offsets, corners }
+        Self(Bins::of(edges.len(), edges.of_corner.iter().map(|e| e.index())))
     }
 
     /// The corners that use edge `e`.
     pub fn at(&self, e: EdgeId) -> &[u32] {
-        &self.corners[self.offsets[e.index()] as usize..self.offsets[e.index() + 1] as usize]
+        self.0.at(e.index())
     }
 
     /// How many faces meet at edge `e` (a face that walks it twice counts twice).

@@ -138,7 +138,7 @@ fn elements_are_refined_until_an_edge_spans_the_angle() {
     let longest_allowed = 5.0 / degrees_per_length(2.0);
     let wants = |longest: f64, f: u32| {
         let corners = [Point::ZERO; 4];
-        field.wants(&SizedElement { corners, longest, level: 1, root: FaceId(f) })
+        field.wants(&SizedElement { corners, longest, level: 1, root: Some(FaceId(f)) })
     };
     assert!(wants(longest_allowed * 1.02, 3) && !wants(longest_allowed * 0.98, 3));
     assert!(!field.is_idle_from(1) && field.is_idle_from(4));

@@ -2,6 +2,7 @@
 
 mod curvature;
 mod field;
+mod hexes;
 mod json;
 mod overlap;
 mod validation;
@@ -14,7 +15,7 @@ use crate::mesh::{FaceId, NodeId, PolygonMesh};
 /// An element of level 0 in input face 0.
 fn element(corners: [Point; 4]) -> SizedElement {
     let longest = (0..4).map(|i| corners[i].distance(corners[(i + 1) % 4])).fold(0.0, f64::max);
-    SizedElement { corners, longest, level: 0, root: FaceId(0) }
+    SizedElement { corners, longest, level: 0, root: Some(FaceId(0)) }
 }
 
 /// The unit square at (x, y, z), in the plane of x and y.

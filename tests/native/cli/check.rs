@@ -76,3 +76,56 @@ fn a_part_is_far_from_the_whole_one_way_alone() {
     assert!(distance["meshToSurface"]["max"].as_f64().unwrap() < 1e-12, "{distance}");
     assert!(distance["surfaceToMesh"]["max"].as_f64().unwrap() > 0.5, "{distance}");
 }
+
+/// A cube of edge 2 in eight hexes, as VTK writes it; `mirrored` turns the last one inside out.
+fn eight_hexes(mirrored: bool) -> String {
+    let mut text =
+        String::from("# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 27 double\n");
+    for m in 0..27 {
+        text += &format!("{} {} {}\n", m % 3, m / 3 % 3, m / 9);
+    }
+    text += "CELLS 8 72\n";
+    for m in 0..8 {
+        let base = m % 2 + 3 * (m / 2 % 2) + 9 * (m / 4);
+        let bottom = [0, 1, 4, 3].map(|n| (base + n).to_string()).join(" ");
+        let top = [9, 10, 13, 12].map(|n| (base + n).to_string()).join(" ");
+        text +=
+            &if mirrored && m == 7 { format!("8 {top} {bottom}\n") } else { format!("8 {bottom} {top}\n") };
+    }
+    text + "CELL_TYPES 8\n" + &"12\n".repeat(8)
+}
+
+#[test]
+fn hexes_are_checked_measured_and_hashed() {
+    let folder = folder_holding("cube.vtk", &eight_hexes(false));
+    let stdout = succeed(&folder, &["check", "cube.vtk", "--report", "r.json"]);
+    for part in [
+        "cube.vtk: 27 nodes, 8 hexes",
+        "components 1, boundary surfaces 1 (24 faces), Euler number 1, manifold",
+        "volume 8, of a hex 1 to 1",
+        "no defects",
+        "hash ",
+    ] {
+        assert!(stdout.contains(part), "{stdout}");
+    }
+    let mesh = &json(&folder, "r.json")["mesh"];
+    assert_eq!((&mesh["hexes"], &mesh["faces"]), (&8.into(), &0.into()));
+    assert_eq!(mesh["topology"]["boundaryFaces"], 24);
+    assert_eq!(mesh["volume"]["total"], 8.0);
+
+    std::fs::write(folder.path().join("shell.obj"), "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n")
+        .unwrap();
+    succeed(&folder, &["check", "cube.vtk", "--surface", "shell.obj", "--report", "d.json"]);
+    let distance = &json(&folder, "d.json")["distance"];
+    assert_eq!(distance["meshToSurface"]["max"], 2.0, "the far side of the boundary");
+    assert_eq!(distance["meshToSurface"]["samples"], 26 + 48, "the middle is no part of the boundary");
+}
+
+#[test]
+fn a_hex_that_is_inside_out_is_an_error() {
+    let folder = folder_holding("cube.vtk", &eight_hexes(true));
+    let run = hexmill(&folder, &["check", "cube.vtk"]);
+    assert_eq!(run.code, Some(1));
+    assert!(run.stderr.contains("hex 7 is inside out at 8 corners"), "{}", run.stderr);
+    assert!(run.stdout.contains("hexes 3 and 7 lie on the same side of their face"), "{}", run.stdout);
+}

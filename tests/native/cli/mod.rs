@@ -2,6 +2,7 @@
 
 mod check;
 mod convert;
+mod grid;
 mod interrupt;
 mod refine;
 mod refusals;

@@ -37,6 +37,9 @@ pub(crate) enum Command {
     /// Write a mesh in another format
     #[command(after_long_help = CONVERT_EXAMPLES)]
     Convert(ConvertArgs),
+    /// Make a box of hexes around a mesh
+    #[command(after_long_help = GRID_EXAMPLES)]
+    Grid(GridArgs),
 }
 
 const REFINE_EXAMPLES: &str = "\
@@ -87,6 +90,14 @@ const CONVERT_EXAMPLES: &str = "\
 Examples:
   hexmill convert part.obj -o part.vtu
   hexmill convert part.mesh -o part.inp";
+
+const GRID_EXAMPLES: &str = "\
+The grid runs along the axes, with the mesh in its middle.
+
+Examples:
+  hexmill grid hull.obj --spacing 0.5 -o sea.vtu                 cubes of edge 0.5
+  hexmill grid hull.obj --spacing 0.5 --margin 4 -o sea.vtu      reaching 4 beyond the hull at least
+  hexmill grid hull.obj --spacing 0.5 --margin 4 --fit -o sea.vtu    and no farther: edges up to 0.5";
 
 /// `hexmill refine`.
 #[derive(Args, Debug)]
@@ -181,6 +192,34 @@ fn angle(text: &str) -> Result<f64, String> {
 /// A growth from element to element.
 fn gradation(text: &str) -> Result<f64, String> {
     positive(text).ok().filter(|&g| g > 1.0 && g <= 2.0).ok_or("give a number above 1, at most 2".to_owned())
+}
+
+/// `hexmill grid`.
+#[derive(Args, Debug)]
+pub(crate) struct GridArgs {
+    /// The mesh to make a grid around
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Where to write the grid
+    #[arg(long, short, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+
+    /// The edge length of the hexes, in model units
+    #[arg(long, value_name = "H", value_parser = positive)]
+    pub(crate) spacing: f64,
+
+    /// How far the grid reaches beyond the mesh, at least
+    #[arg(long, value_name = "M", default_value_t = 0.0)]
+    pub(crate) margin: f64,
+
+    /// Shorten the edges so that the grid ends where the margin does
+    #[arg(long)]
+    pub(crate) fit: bool,
+
+    /// Refuse to make more hexes than this [default: 16000000]
+    #[arg(long, value_name = "N")]
+    pub(crate) max_hexes: Option<u64>,
 }
 
 /// A finite number above zero.

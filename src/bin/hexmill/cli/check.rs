@@ -2,7 +2,8 @@
 
 use hexmill::io::{AnyMesh, Document};
 use hexmill::mesh::check::{DefectCount, Severity};
-use hexmill::mesh::{PolygonMesh, check_polygons};
+use hexmill::mesh::topology::hex_boundary;
+use hexmill::mesh::{HexMesh, PolygonMesh, Volumes, check_polygons};
 
 use super::args::CheckArgs;
 use super::distance::{Distances, Triangles};
@@ -10,7 +11,7 @@ use super::failure::Failure;
 use super::files::{check_outputs, format_of, load};
 use super::progress::Progress;
 use super::region::{load_triangles, triangles_of};
-use super::report::{InputReport, MeshReport, Report, peak_memory_bytes, quality_table};
+use super::report::{Counts, InputReport, MeshReport, Report, Topology, peak_memory_bytes, quality_table};
 
 /// Reads a mesh, looks it over and tells; refuses a mesh that does not conform.
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
@@ -22,16 +23,23 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(quiet);
     let mut loaded = progress.stage("read", || load(&args.mesh))?;
     let empty = Document::from(PolygonMesh::default());
-    let mut document = std::mem::replace(&mut loaded.document, empty);
-    if matches!(document.mesh, AnyMesh::Hexes(_)) {
-        let message = format!("{}: holds hexes; give a surface of polygons to check", args.mesh.display());
-        return Err(Failure::refused("surface-needed", message));
-    }
-    let level = std::mem::take(&mut document.level);
-    let surface = document.into_surface().expect("hexes were refused above");
-    let mut mesh = progress.stage("measure", || MeshReport::of_polygons(&surface, &level));
-    progress.stage("check", || mesh.check(&surface, check_polygons));
-    let mut report = Report::new("check", InputReport::new(&loaded, &surface), mesh);
+    let document = std::mem::replace(&mut loaded.document, empty);
+    let (counts, mesh, surface) = match document.mesh {
+        AnyMesh::Hexes(hexes) => {
+            let mut mesh = progress.stage("measure", || MeshReport::of_hexes(&hexes, &document.level));
+            progress.stage("check", || mesh.check_hexes(&hexes));
+            let rim = args.surface.is_some().then(|| boundary(hexes));
+            (mesh.counts, mesh, rim.unwrap_or_default())
+        }
+        _ => {
+            let level = document.level.clone();
+            let surface = document.into_surface().expect("hexes were taken above");
+            let mut mesh = progress.stage("measure", || MeshReport::of_polygons(&surface, &level));
+            progress.stage("check", || mesh.check(&surface, check_polygons));
+            (Counts::of_polygons(&surface), mesh, surface)
+        }
+    };
+    let mut report = Report::new("check", InputReport::new(&loaded, counts), mesh);
     report.distance = match &args.surface {
         Some(path) => {
             let (positions, triangles) = progress.stage("read", || load_triangles(path))?;
@@ -53,6 +61,14 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     verdict(args, &report)
 }
 
+/// The boundary of a hex mesh; nodes inside come along, in no face.
+fn boundary(mesh: HexMesh) -> PolygonMesh {
+    let mut surface = PolygonMesh::default();
+    hex_boundary(&mesh.hexes).into_iter().for_each(|(face, _)| surface.push_face(face));
+    surface.positions = mesh.positions;
+    surface
+}
+
 /// Refuses a mesh that does not conform.
 fn verdict(args: &CheckArgs, report: &Report) -> Result<(), Failure> {
     let refused = report.mesh.defects.as_ref().filter(|defects| !defects.conforming);
@@ -64,16 +80,9 @@ fn verdict(args: &CheckArgs, report: &Report) -> Result<(), Failure> {
 fn in_words(args: &CheckArgs, report: &Report) -> String {
     let mesh = &report.mesh;
     let mut lines = vec![format!("{}: {}", args.mesh.display(), mesh.counts.in_words())];
-    if let Some(t) = &mesh.topology {
-        lines.push(format!(
-            "  components {}, boundary loops {} ({} edges), Euler number {}, {}, {}",
-            t.components,
-            t.boundary_loops,
-            t.boundary_edges,
-            t.euler,
-            if t.is_manifold() { "manifold" } else { "not manifold" },
-            if t.orientable { "orientable" } else { "not orientable" },
-        ));
+    lines.extend(mesh.topology.as_ref().map(topology_line));
+    if let Some(Volumes { total, min, max }) = mesh.volume {
+        lines.push(format!("  volume {total}, of a hex {min} to {max}"));
     }
     lines.extend(mesh.quality.as_ref().map(quality_table));
     if let Some(defects) = &mesh.defects {
@@ -88,6 +97,28 @@ fn in_words(args: &CheckArgs, report: &Report) -> String {
     }
     lines.push(format!("  hash {}", mesh.hash));
     lines.join("\n") + "\n"
+}
+
+fn topology_line(topology: &Topology) -> String {
+    match topology {
+        Topology::Surface(t) => format!(
+            "  components {}, boundary loops {} ({} edges), Euler number {}, {}, {}",
+            t.components,
+            t.boundary_loops,
+            t.boundary_edges,
+            t.euler,
+            if t.is_manifold() { "manifold" } else { "not manifold" },
+            if t.orientable { "orientable" } else { "not orientable" },
+        ),
+        Topology::Solid(t) => format!(
+            "  components {}, boundary surfaces {} ({} faces), Euler number {}, {}",
+            t.components,
+            t.boundary_components,
+            t.boundary_faces,
+            t.euler,
+            if t.is_manifold() { "manifold" } else { "not manifold" },
+        ),
+    }
 }
 
 fn defect_line(defect: &DefectCount) -> String {

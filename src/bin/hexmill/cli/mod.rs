@@ -6,6 +6,7 @@ mod convert;
 mod distance;
 mod failure;
 mod files;
+mod grid;
 mod progress;
 mod refine;
 mod region;
@@ -25,6 +26,7 @@ pub fn run() -> ExitCode {
         Command::Refine(args) => refine::run(&args, cli.quiet),
         Command::Check(args) => check::run(&args, cli.quiet),
         Command::Convert(args) => convert::run(&args, cli.quiet),
+        Command::Grid(args) => grid::run(&args, cli.quiet),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

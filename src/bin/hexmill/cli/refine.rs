@@ -8,7 +8,7 @@ use super::args::RefineArgs;
 use super::failure::Failure;
 use super::files::{check_outputs, format_of, load, save};
 use super::progress::Progress;
-use super::report::{FileReport, InputReport, MeshReport, OptionsReport, Report, peak_memory_bytes};
+use super::report::{Counts, FileReport, InputReport, MeshReport, OptionsReport, Report, peak_memory_bytes};
 
 /// Reads, refines, writes and reports.
 pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
@@ -29,7 +29,7 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
         let message = format!("{}: holds hexes; give a surface of polygons to refine", args.input.display());
         Failure::refused("surface-needed", message)
     })?;
-    let input = InputReport::new(&loaded, &surface);
+    let input = InputReport::new(&loaded, Counts::of_polygons(&surface));
     let options = options(args)?;
     let refined =
         refine_quads(&surface, &options, &progress).map_err(|e| Failure::refine(&args.input, &e))?;

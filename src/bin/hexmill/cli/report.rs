@@ -6,8 +6,11 @@ use hexmill::geometry::Aabb;
 use hexmill::io::Format;
 use hexmill::mesh::check::{DefectCount, summary};
 use hexmill::mesh::quality::{Distribution, QualityReport, quad_quality};
-use hexmill::mesh::topology::{SurfaceReport, surface_report};
-use hexmill::mesh::{Defect, Edges, Faces, MeshHash, NodeId, PolygonMesh, QuadMesh, mesh_hash, polygon_hash};
+use hexmill::mesh::topology::{HexEdges, HexFaces, HexReport, SurfaceReport, hex_report, surface_report};
+use hexmill::mesh::{
+    Defect, Edges, Faces, HexMesh, MeshHash, NodeId, PolygonMesh, QuadMesh, Volumes, check_hexes, mesh_hash,
+    polygon_hash,
+};
 use serde::Serialize;
 
 use super::distance::Distances;
@@ -84,7 +87,7 @@ impl FileReport {
     }
 }
 
-/// The file that was read, and the surface in it.
+/// The file that was read, and the mesh in it.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct InputReport {
@@ -95,9 +98,8 @@ pub(crate) struct InputReport {
 }
 
 impl InputReport {
-    pub(crate) fn new(loaded: &Loaded, surface: &PolygonMesh) -> Self {
-        let file = FileReport::new(&loaded.path, loaded.format, loaded.bytes);
-        Self { file, counts: Counts::of_polygons(surface) }
+    pub(crate) fn new(loaded: &Loaded, counts: Counts) -> Self {
+        Self { file: FileReport::new(&loaded.path, loaded.format, loaded.bytes), counts }
     }
 }
 
@@ -124,6 +126,7 @@ pub(crate) struct Counts {
     pub(crate) triangles: usize,
     pub(crate) quads: usize,
     pub(crate) polygons: usize,
+    pub(crate) hexes: usize,
     bounds: Option<Bounds>,
 }
 
@@ -135,26 +138,37 @@ struct Bounds {
 }
 
 impl Counts {
-    fn of_polygons(mesh: &PolygonMesh) -> Self {
+    pub(crate) fn of_polygons(mesh: &PolygonMesh) -> Self {
         let of_size = |n: usize| mesh.faces().filter(|f| f.len() == n).count();
         let (faces, triangles, quads) = (mesh.face_count(), of_size(3), of_size(4));
         let polygons = faces - triangles - quads;
-        Self { nodes: mesh.positions.len(), faces, triangles, quads, polygons, bounds: bounds(mesh.bounds()) }
+        Self { faces, triangles, quads, polygons, ..Self::of_nodes(mesh.positions.len(), mesh.bounds()) }
     }
 
     fn of_quads(mesh: &QuadMesh) -> Self {
         let quads = mesh.quads.len();
-        let nodes = mesh.positions.len();
-        Self { nodes, faces: quads, triangles: 0, quads, polygons: 0, bounds: bounds(mesh.bounds()) }
+        Self { faces: quads, quads, ..Self::of_nodes(mesh.positions.len(), mesh.bounds()) }
+    }
+
+    pub(crate) fn of_hexes(mesh: &HexMesh) -> Self {
+        Self { hexes: mesh.hexes.len(), ..Self::of_nodes(mesh.positions.len(), mesh.bounds()) }
+    }
+
+    fn of_nodes(nodes: usize, around: Aabb) -> Self {
+        Self { nodes, faces: 0, triangles: 0, quads: 0, polygons: 0, hexes: 0, bounds: bounds(around) }
     }
 
     /// In words, such as `8 nodes, 6 quads`.
     pub(crate) fn in_words(&self) -> String {
         let mut words = vec![format!("{} nodes", self.nodes)];
-        let kinds =
-            [(self.triangles, "triangles"), (self.quads, "quads"), (self.polygons, "larger polygons")];
+        let kinds = [
+            (self.triangles, "triangles"),
+            (self.quads, "quads"),
+            (self.polygons, "larger polygons"),
+            (self.hexes, "hexes"),
+        ];
         words.extend(kinds.iter().filter(|(n, _)| *n > 0).map(|(n, kind)| format!("{n} {kind}")));
-        if self.faces == 0 {
+        if self.faces == 0 && self.hexes == 0 {
             words.push("no faces".to_owned());
         }
         words.join(", ")
@@ -175,10 +189,21 @@ pub(crate) struct MeshReport {
     pub(crate) levels: Vec<LevelCount>,
     pub(crate) capped: usize,
     pub(crate) quality: Option<QualityReport>,
+    /// Of hexes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) volume: Option<Volumes>,
     /// Filled in by [`MeshReport::check`].
-    pub(crate) topology: Option<SurfaceReport>,
+    pub(crate) topology: Option<Topology>,
     /// Filled in by [`MeshReport::check`].
     pub(crate) defects: Option<Defects>,
+}
+
+/// What kind of surface or solid a mesh is.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(crate) enum Topology {
+    Surface(SurfaceReport),
+    Solid(HexReport),
 }
 
 /// How many cells are of a level.
@@ -217,6 +242,7 @@ impl MeshReport {
             levels: levels(level),
             capped,
             quality: quad_quality(mesh).report(),
+            volume: None,
             topology: None,
             defects: None,
         }
@@ -234,6 +260,7 @@ impl MeshReport {
             levels: levels(level),
             capped: 0,
             quality: quad_quality(&quads).report(),
+            volume: None,
             topology: None,
             defects: None,
         }
@@ -241,8 +268,30 @@ impl MeshReport {
 
     /// Adds what kind of surface the mesh is, and its `defects`: the slow part.
     pub(crate) fn check<M: Faces>(&mut self, mesh: &M, defects: fn(&M) -> Vec<Defect>) {
-        self.topology = Some(surface_report(mesh, &Edges::of(mesh)));
+        self.topology = Some(Topology::Surface(surface_report(mesh, &Edges::of(mesh))));
         self.defects = Some(Defects::new(defects(mesh)));
+    }
+
+    /// Measures a hex mesh whose hexes have these levels (none, or one a hex).
+    pub(crate) fn of_hexes(mesh: &HexMesh, level: &[u8]) -> Self {
+        Self {
+            counts: Counts::of_hexes(mesh),
+            hash: mesh_hash(&mesh.positions, &mesh.hexes),
+            levels: levels(level),
+            capped: 0,
+            quality: None,
+            volume: Volumes::of(mesh),
+            topology: None,
+            defects: None,
+        }
+    }
+
+    /// As [`MeshReport::check`], for a hex mesh.
+    pub(crate) fn check_hexes(&mut self, mesh: &HexMesh) {
+        let (count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
+        let report = hex_report(mesh, &HexFaces::of(count, hexes), &HexEdges::of(count, hexes));
+        self.topology = Some(Topology::Solid(report));
+        self.defects = Some(Defects::new(check_hexes(mesh)));
     }
 }
 

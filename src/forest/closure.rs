@@ -1,0 +1,291 @@
+//! Closure of a forest of octrees: what must be refined besides what was asked for, so that a conforming mesh can
+//! be made.
+//!
+//! An element whose eight children are all refined is **doubly refined**; these elements and the others of their
+//! level meet at an interface, where conforming refinement puts its transition elements. The rules:
+//!
+//! 1. *Families* (the paper's rule of the volume node, section 3): if a child of an element is refined, so are its
+//!    seven siblings. Then every face node between two levels has four transition elements.
+//! 2. *Strong balance*: every element that shares a node with a doubly refined element of its level is refined.
+//! 3. *Method*: what the method admits at each corner of an element beside the interface ([`Admits`]). Where it
+//!    does not, one of the elements at the corner's node becomes doubly refined: the one with the most interface
+//!    faces there. (Adding the element whose corner is not admitted fills far more.)
+//!
+//! Rules 1 and 2 alone give the least forest that holds the given one and obeys them. All are applied from the
+//! finest level to the coarsest, and again while anything changes.
+
+use std::collections::VecDeque;
+
+use rayon::prelude::*;
+
+use super::HexForest;
+use super::octree::{HexLevel, Sides};
+use crate::mesh::NodeId;
+use crate::mesh::numbering::hex::{EDGES, FACES};
+use crate::mesh::topology::Bins;
+use crate::{Cancelled, Monitor};
+
+/// What a method can make conform at a corner of an element that is not doubly refined: of the three faces and the
+/// three edges there, `faces` and `edges` belong to a doubly refined element.
+pub type Admits = fn(faces: usize, edges: usize) -> bool;
+
+/// Method I (section 3.1): no face and at most one edge, one face and its two edges, or two faces and more.
+pub fn admits_method_one(faces: usize, edges: usize) -> bool {
+    match faces {
+        0 => edges <= 1,
+        1 => edges == 2,
+        _ => true,
+    }
+}
+
+/// How many elements closure refined, by rule.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Closure {
+    /// For their siblings.
+    pub families: usize,
+    /// For strong balance.
+    pub balance: usize,
+    /// For the method.
+    pub method: usize,
+}
+
+/// Families that are split before the monitor is asked again.
+const BATCH: usize = 1 << 14;
+
+impl HexForest {
+    /// Refines elements until the forest obeys the rules of families and strong balance, and those of a method.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn close(&mut self, method: Option<Admits>, monitor: &dyn Monitor) -> Result<Closure, Cancelled> {
+        let mut wanted = Wanted::default();
+        for depth in 0..self.levels.len() {
+            let families: Vec<u32> = self.levels[depth].refined.iter().map(|e| e / 8).collect();
+            wanted.add(self, depth, &families);
+        }
+        let mut added = Closure::default();
+        loop {
+            let before = added;
+            for depth in (0..self.levels.len()).rev() {
+                let (halfway, needed) = self.incomplete(depth, &wanted);
+                added.families += self.complete(depth, &halfway, &mut wanted, monitor)?;
+                added.balance += self.complete(depth, &needed, &mut wanted, monitor)?;
+                if let Some(admits) = method {
+                    let filling = Interface::new(self, depth).and_then(|i| i.filling(admits));
+                    let filling = filling.unwrap_or_default();
+                    added.method += self.complete(depth, &filling, &mut wanted, monitor)?;
+                }
+            }
+            if added == before {
+                return Ok(added);
+            }
+        }
+    }
+
+    /// The families of `levels[depth]` that are refined in part, and those that are not but have an element that
+    /// balance wants refined.
+    fn incomplete(&self, depth: usize, wanted: &Wanted) -> (Vec<u32>, Vec<u32>) {
+        let level = &self.levels[depth];
+        let families = (0..level.elements.len() as u32 / 8).into_par_iter();
+        let refined = |k: u32| level.family(k as usize).iter().filter(|&&r| r).count();
+        let halfway = families.clone().filter(|&k| !matches!(refined(k), 0 | 8)).collect();
+        let needed = families.filter(|&k| {
+            let elements = &level.elements[8 * k as usize..8 * k as usize + 8];
+            refined(k) == 0 && elements.iter().any(|e| wanted.at(depth, e))
+        });
+        (halfway, needed.collect())
+    }
+
+    /// Refines what is not refined of families of `levels[depth]`; returns how many elements that was.
+    fn complete(
+        &mut self,
+        depth: usize,
+        families: &[u32],
+        wanted: &mut Wanted,
+        monitor: &dyn Monitor,
+    ) -> Result<usize, Cancelled> {
+        let mut count = 0;
+        for batch in families.chunks(BATCH) {
+            if monitor.cancelled() {
+                return Err(Cancelled);
+            }
+            let level = &self.levels[depth];
+            let elements = batch.iter().flat_map(|&k| 8 * k..8 * k + 8);
+            let marked: Vec<u32> = elements.filter(|&e| !level.is_refined[e as usize]).collect();
+            self.split(depth, &marked);
+            count += marked.len();
+        }
+        if monitor.cancelled() {
+            return Err(Cancelled);
+        }
+        wanted.add(self, depth, families);
+        Ok(count)
+    }
+}
+
+/// For each node one more than the depth of the deepest doubly refined element that has it; 0 if there is none.
+///
+/// A coarser element with such a node has it in common with an ancestor, at its own level, of the doubly refined
+/// element, and that is doubly refined too. So it must be refined as well.
+#[derive(Default)]
+struct Wanted(Vec<u8>);
+
+impl Wanted {
+    /// Takes in the parents of `families` of `levels[depth]`. Level 0 is refined everywhere, and nothing is coarser.
+    fn add(&mut self, forest: &HexForest, depth: usize, families: &[u32]) {
+        self.0.resize(forest.positions.len(), 0);
+        if depth == 0 {
+            return;
+        }
+        let parents = forest.parents(depth);
+        for &k in families {
+            for n in parents.elements[parents.refined[k as usize] as usize] {
+                let wanted = &mut self.0[n.index()];
+                *wanted = (*wanted).max(depth as u8);
+            }
+        }
+    }
+
+    /// True if an element of `levels[depth]` must be refined.
+    fn at(&self, depth: usize, element: &[NodeId; 8]) -> bool {
+        element.iter().any(|n| usize::from(self.0[n.index()]) > depth)
+    }
+}
+
+/// The interface between the doubly refined elements of a level and its other refined elements.
+struct Interface<'a> {
+    parents: &'a HexLevel,
+    node_count: usize,
+    /// For each refined element, in the order of families: is it doubly refined?
+    is_doubly: Vec<bool>,
+    /// For each edge and each face: has a doubly refined element it?
+    edges: Vec<bool>,
+    faces: Vec<bool>,
+}
+
+impl<'a> Interface<'a> {
+    /// The interface of the parents of `levels[depth]`, whose families are refined as a whole or not at all; `None`
+    /// if there is none.
+    fn new(forest: &'a HexForest, depth: usize) -> Option<Self> {
+        let (level, parents) = (&forest.levels[depth], forest.parents(depth));
+        let is_doubly: Vec<bool> = level.is_refined.chunks_exact(8).map(|family| family[0]).collect();
+        let count = is_doubly.iter().filter(|&&d| d).count();
+        if count == 0 || count == is_doubly.len() {
+            return None;
+        }
+        let mut interface = Self {
+            parents,
+            node_count: forest.positions.len(),
+            edges: vec![false; parents.edges.len()],
+            faces: vec![false; parents.faces.len()],
+            is_doubly,
+        };
+        for k in 0..interface.is_doubly.len() {
+            if interface.is_doubly[k] {
+                interface.touch(k);
+            }
+        }
+        Some(interface)
+    }
+
+    fn nodes(&self, k: usize) -> &'a [NodeId; 8] {
+        &self.parents.elements[self.parents.refined[k] as usize]
+    }
+
+    fn sides(&self, k: usize) -> &'a Sides {
+        &self.parents.sides[self.parents.refined[k] as usize]
+    }
+
+    /// Notes the edges and faces of a doubly refined element.
+    fn touch(&mut self, k: usize) {
+        let Sides { edges, faces } = self.sides(k);
+        edges.iter().for_each(|e| self.edges[e.index()] = true);
+        faces.iter().for_each(|f| self.faces[f.index()] = true);
+    }
+
+    /// How many of the faces and of the edges at a corner of element `k` belong to doubly refined elements.
+    fn at_corner(&self, k: usize, corner: usize) -> (usize, usize) {
+        let Sides { edges, faces } = self.sides(k);
+        let on = |flags: &[bool], at: [usize; 3]| at.iter().filter(|&&i| flags[i]).count();
+        let faces_here = FACES_AT_CORNER[corner].map(|f| faces[usize::from(f)].index());
+        let edges_here = EDGES_AT_CORNER[corner].map(|e| edges[usize::from(e)].index());
+        (on(&self.faces, faces_here), on(&self.edges, edges_here))
+    }
+
+    /// The elements that must become doubly refined so that `admits` holds everywhere, in the order of the rule's
+    /// steps: from the least node on, and around each element that was added.
+    fn filling(mut self, admits: Admits) -> Option<Vec<u32>> {
+        let this = &self;
+        let is_violated = |k: usize, corner: usize| {
+            let (faces, edges) = this.at_corner(k, corner);
+            !this.is_doubly[k] && !admits(faces, edges)
+        };
+        let mut queue: Vec<NodeId> = (0..self.is_doubly.len())
+            .into_par_iter()
+            .flat_map_iter(|k| (0..8).filter(move |&c| is_violated(k, c)).map(move |c| this.nodes(k)[c]))
+            .collect();
+        if queue.is_empty() {
+            return None;
+        }
+        queue.par_sort_unstable();
+        queue.dedup();
+        let corners = (0..8 * self.is_doubly.len()).map(|place| self.nodes(place / 8)[place % 8].index());
+        let stars = Bins::of(self.node_count, corners);
+        let mut is_queued = vec![false; self.node_count];
+        queue.iter().for_each(|n| is_queued[n.index()] = true);
+        let mut queue = VecDeque::from(queue);
+        let mut filling = Vec::new();
+        while let Some(node) = queue.pop_front() {
+            is_queued[node.index()] = false;
+            while let Some(k) = self.filler(stars.at(node.index()), admits) {
+                self.is_doubly[k] = true;
+                self.touch(k);
+                filling.push(k as u32);
+                for &n in self.nodes(k) {
+                    if !std::mem::replace(&mut is_queued[n.index()], true) {
+                        queue.push_back(n);
+                    }
+                }
+            }
+        }
+        Some(filling)
+    }
+
+    /// Of the corners at a node, if one is not admitted: the element with the most interface faces there, then the
+    /// most edges, then the first.
+    fn filler(&self, star: &[u32], admits: Admits) -> Option<usize> {
+        let open = star.iter().map(|&place| (place as usize / 8, place as usize % 8));
+        let (mut best, mut is_violated) = (None, false);
+        for (k, corner) in open.filter(|&(k, _)| !self.is_doubly[k]) {
+            let (faces, edges) = self.at_corner(k, corner);
+            is_violated |= !admits(faces, edges);
+            if best.is_none_or(|(most, _)| (faces, edges) > most) {
+                best = Some(((faces, edges), k));
+            }
+        }
+        best.filter(|_| is_violated).map(|(_, k)| k)
+    }
+}
+
+/// The three faces at each corner, and the three edges.
+const FACES_AT_CORNER: [[u8; 3]; 8] = at_corners(FACES);
+const EDGES_AT_CORNER: [[u8; 3]; 8] = at_corners(EDGES);
+
+const fn at_corners<const N: usize, const M: usize>(parts: [[u8; M]; N]) -> [[u8; 3]; 8] {
+    let (mut all, mut count, mut p) = ([[0; 3]; 8], [0; 8], 0);
+    while p < N {
+        let mut k = 0;
+        while k < M {
+            let corner = parts[p][k] as usize;
+            all[corner][count[corner]] = p as u8;
+            count[corner] += 1;
+            k += 1;
+        }
+        p += 1;
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,175 @@
+//! Is a hex mesh conforming, and what else is there to know of it? In this order:
+//!
+//! 1. node ids (if these fail, nothing below is looked at);
+//! 2. coordinates are finite;
+//! 3. per hex: repeated nodes, corners that are inside out;
+//! 4. hexes with the same nodes;
+//! 5. per face: three or more hexes, two hexes on one side, the same nodes in another order;
+//! 6. per edge: faces that share three nodes, boundary faces other than two;
+//! 7. per node: unused, links that are neither a sphere nor, on the boundary, a disc;
+//! 8. boundary nodes inside boundary edges and faces that they are no corner of.
+//!
+//! Time grows linearly with the mesh, but for the search trees over the boundary of step 8.
+
+use rayon::prelude::*;
+
+use super::{CHUNK, Defect, hanging, not_finite, repeated_node};
+use crate::mesh::orientation::inverted_corners;
+use crate::mesh::topology::{
+    Bins, HexEdges, HexFaces, Links, NodeSets, boundary_faces_at, faces_at_use, hex_of, side_nodes,
+};
+use crate::mesh::{EdgeId, FaceId, HexId, HexMesh, NodeId};
+
+/// Everything wrong with a hex mesh; empty for a conforming manifold with boundary, without loose nodes, whose
+/// hexes are the right way out at all corners.
+pub fn check_hexes(mesh: &HexMesh) -> Vec<Defect> {
+    let mut defects = per_hex(mesh, |h| ids(mesh, h));
+    if !defects.is_empty() {
+        return defects;
+    }
+    defects.extend(not_finite(&mesh.positions));
+    let all_finite = defects.is_empty();
+    defects.extend(per_hex(mesh, |h| shape(mesh, h)));
+    defects.extend(same_hexes(mesh));
+    let (node_count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
+    let (faces, edges) = rayon::join(|| HexFaces::of(node_count, hexes), || HexEdges::of(node_count, hexes));
+    let face_ids = (0..faces.nodes.len()).into_par_iter().with_min_len(CHUNK);
+    defects.par_extend(face_ids.filter_map(|f| face_defect(mesh, &faces, FaceId::new(f))));
+    defects.extend(edge_defects(&faces, &edges));
+    let links = Links::of(mesh, &faces, &edges);
+    let unused = (0..node_count).filter(|&n| !links.is_used(n));
+    defects.extend(unused.map(|n| Defect::UnusedNode { node: NodeId::new(n) }));
+    let odd = |(node, euler): (NodeId, i32)| {
+        let boundary = links.on_boundary[node.index()];
+        Defect::OddLink { node, euler, boundary }
+    };
+    defects.extend(links.odd().map(odd));
+    if all_finite {
+        let open = faces.ids().filter(|&f| faces.is_boundary(f));
+        let open: Vec<(HexId, [NodeId; 4])> =
+            open.map(|f| (hex_of(faces.sides(f)[0]), faces.nodes[f.index()])).collect();
+        let mut sides: Vec<[NodeId; 2]> = open.iter().flat_map(|(_, f)| edges_around(f)).collect();
+        sides.sort_unstable();
+        sides.dedup();
+        defects.extend(hanging::inside(&mesh.positions, &links.on_boundary, sides));
+        defects.extend(hanging::inside_faces(&mesh.positions, &links.on_boundary, open));
+    }
+    defects
+}
+
+/// The edges around a face, the lesser end first.
+fn edges_around(face: &[NodeId; 4]) -> [[NodeId; 2]; 4] {
+    std::array::from_fn(|k| {
+        let (a, b) = (face[k], face[(k + 1) % 4]);
+        [a.min(b), a.max(b)]
+    })
+}
+
+/// What `look` finds at each hex, in order of hexes.
+fn per_hex(mesh: &HexMesh, look: impl Fn(usize) -> Option<Defect> + Sync + Send) -> Vec<Defect> {
+    (0..mesh.hexes.len()).into_par_iter().with_min_len(CHUNK).filter_map(look).collect()
+}
+
+/// Step 1 at one hex.
+fn ids(mesh: &HexMesh, h: usize) -> Option<Defect> {
+    let count = mesh.positions.len();
+    let wrong = mesh.hexes[h].iter().find(|n| n.index() >= count);
+    wrong.map(|&node| Defect::HexNodeOutOfRange { hex: HexId::new(h), node, nodes: count as u32 })
+}
+
+/// Step 3 at one hex: a hex with a repeated node is not told to be inside out as well.
+fn shape(mesh: &HexMesh, h: usize) -> Option<Defect> {
+    let (hex, nodes) = (HexId::new(h), &mesh.hexes[h]);
+    if let Some(node) = repeated_node(nodes) {
+        return Some(Defect::HexRepeatedNode { hex, node });
+    }
+    let corners = inverted_corners(&nodes.map(|n| mesh.positions[n.index()])).count_ones();
+    (corners > 0).then_some(Defect::InvertedHex { hex, corners })
+}
+
+/// Step 4.
+fn same_hexes(mesh: &HexMesh) -> Vec<Defect> {
+    let mut sets = NodeSets::new(mesh.positions.len(), mesh.hexes.as_flattened(), mesh.hexes.len());
+    let mut first_of_set = Vec::with_capacity(mesh.hexes.len());
+    let mut defects = Vec::new();
+    for (h, &hex) in mesh.hexes.iter().enumerate() {
+        let hex_id = HexId::new(h);
+        match first_of_set.get(sets.number(hex) as usize) {
+            None => first_of_set.push(hex_id),
+            Some(&first) => defects.push(Defect::SameHexes { hexes: [first, hex_id] }),
+        }
+    }
+    defects
+}
+
+/// Step 5 at one face.
+fn face_defect(mesh: &HexMesh, faces: &HexFaces, f: FaceId) -> Option<Defect> {
+    let face = faces.nodes[f.index()];
+    match *faces.sides(f) {
+        [_] => None,
+        [first, second] => {
+            let hexes = [first, second].map(hex_of);
+            let other = side_nodes(&mesh.hexes, second);
+            if is_turned(face, other) {
+                return None;
+            }
+            let reversed = [other[0], other[3], other[2], other[1]];
+            Some(if is_turned(face, reversed) {
+                Defect::FaceDisagreement { face, hexes }
+            } else {
+                Defect::CrossedFace { face, other, hexes }
+            })
+        }
+        ref sides => {
+            Some(Defect::NonManifoldFace { face, hexes: sides.iter().map(|&s| hex_of(s)).collect() })
+        }
+    }
+}
+
+/// True if `b` walks around the nodes of `a` the other way: as it should be seen from the hex on the other side.
+fn is_turned(a: [NodeId; 4], b: [NodeId; 4]) -> bool {
+    (0..4).any(|shift| (0..4).all(|k| a[k] == b[(shift + 4 - k) % 4]))
+}
+
+/// Step 6.
+fn edge_defects(faces: &HexFaces, edges: &HexEdges) -> Vec<Defect> {
+    let uses = edges.uses();
+    let ids = (0..edges.ends.len()).into_par_iter().with_min_len(CHUNK);
+    let mut shared: Vec<[FaceId; 2]> =
+        ids.clone().flat_map_iter(|e| sharing_three_nodes(faces, edges, &uses, EdgeId::new(e))).collect();
+    // Faces with three common nodes may have two common edges.
+    shared.par_sort_unstable();
+    shared.dedup();
+    let told = shared.into_iter().map(|pair| {
+        let hexes = pair.map(|f| hex_of(faces.sides(f)[0]));
+        Defect::ThreeSharedNodes { faces: pair.map(|f| faces.nodes[f.index()]), hexes }
+    });
+    let rims = ids.filter_map(|e| {
+        let at = boundary_faces_at(faces, &uses, EdgeId::new(e));
+        let hexes = || at.iter().map(|&f| hex_of(faces.sides(f)[0])).collect();
+        (!matches!(at.len(), 0 | 2)).then(|| Defect::NonManifoldRim { edge: edges.ends[e], hexes: hexes() })
+    });
+    let mut defects: Vec<Defect> = told.collect();
+    defects.par_extend(rims);
+    defects
+}
+
+/// The pairs of faces at an edge that have another node in common: two triples of nodes in a quad share an edge of
+/// each, so all pairs with three common nodes are found at edges.
+fn sharing_three_nodes(faces: &HexFaces, edges: &HexEdges, uses: &Bins, e: EdgeId) -> Vec<[FaceId; 2]> {
+    let ends = edges.ends[e.index()];
+    let mut beside: Vec<(NodeId, FaceId)> = uses
+        .at(e.index())
+        .iter()
+        .flat_map(|&u| faces_at_use(faces, u))
+        .flat_map(|f| faces.nodes[f.index()].map(|n| (n, f)))
+        .filter(|(n, _)| !ends.contains(n))
+        .collect();
+    beside.sort_unstable();
+    beside.dedup();
+    let twice = beside.windows(2).filter(|w| w[0].0 == w[1].0);
+    twice.map(|w| [w[0].1, w[1].1]).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,117 @@
+//! The unique faces and edges of a hex mesh.
+
+use super::{Bins, NodeSets};
+use crate::mesh::numbering::hex::{EDGES, FACES};
+use crate::mesh::{EdgeId, FaceId, HexId, NodeId};
+
+/// A side: face `k` of hex `h`, in the order of [`FACES`], as `6 * h + k`.
+pub type Side = u32;
+
+/// The unique faces of a hex mesh, numbered in the order in which a walk over the hexes and their faces (in the order
+/// of [`FACES`]) meets them. Faces are one if their sets of nodes are.
+///
+/// ```
+/// use hexmill::mesh::{FaceId, NodeId, topology::HexFaces};
+/// let two = [[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]].map(|hex| hex.map(NodeId));
+/// let faces = HexFaces::of(12, &two);
+/// assert_eq!(faces.nodes.len(), 11);
+/// assert_eq!(faces.of_hex[0][3], faces.of_hex[1][5]);
+/// assert_eq!(faces.sides(faces.of_hex[0][3]), [3, 6 + 5]);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HexFaces {
+    /// The nodes of each face, anticlockwise seen from outside the first hex that has it.
+    pub nodes: Vec<[NodeId; 4]>,
+    /// The faces of each hex.
+    pub of_hex: Vec<[FaceId; 6]>,
+    /// The sides of each face.
+    sides: Bins,
+}
+
+impl HexFaces {
+    /// The faces of `hexes`, whose nodes are less than `node_count`.
+    ///
+    /// # Panics
+    /// If a node id is out of range: `check_hexes` tells before.
+    pub fn of(node_count: usize, hexes: &[[NodeId; 8]]) -> Self {
+        let mut sets = NodeSets::new(node_count, hexes.as_flattened(), 3 * hexes.len());
+        let number = |hex: &[NodeId; 8]| FACES.map(|face| FaceId(sets.number(corners(hex, face))));
+        let of_hex: Vec<[FaceId; 6]> = hexes.iter().map(number).collect();
+        let nodes = sets.into_nodes();
+        let sides = Bins::of(nodes.len(), of_hex.as_flattened().iter().map(|f| f.index()));
+        Self { nodes, of_hex, sides }
+    }
+
+    /// The sides of face `f`, ascending: one on the boundary, two inside.
+    pub fn sides(&self, f: FaceId) -> &[Side] {
+        self.sides.at(f.index())
+    }
+
+    /// True if one hex alone has face `f`.
+    pub fn is_boundary(&self, f: FaceId) -> bool {
+        self.sides(f).len() == 1
+    }
+
+    /// The faces in order.
+    pub fn ids(&self) -> impl Iterator<Item = FaceId> + use<> {
+        (0..self.nodes.len()).map(FaceId::new)
+    }
+}
+
+/// The unique edges of a hex mesh, numbered in the order in which a walk over the hexes and their edges (in the
+/// order of [`EDGES`]) meets them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HexEdges {
+    /// The ends of each edge, in the order in which its first hex has them.
+    pub ends: Vec<[NodeId; 2]>,
+    /// The edges of each hex.
+    pub of_hex: Vec<[EdgeId; 12]>,
+}
+
+impl HexEdges {
+    /// The edges of `hexes`, whose nodes are less than `node_count`.
+    ///
+    /// # Panics
+    /// If a node id is out of range: `check_hexes` tells before.
+    pub fn of(node_count: usize, hexes: &[[NodeId; 8]]) -> Self {
+        let mut sets = NodeSets::new(node_count, hexes.as_flattened(), 3 * hexes.len());
+        let number = |hex: &[NodeId; 8]| EDGES.map(|edge| EdgeId(sets.number(corners(hex, edge))));
+        let of_hex = hexes.iter().map(number).collect();
+        Self { ends: sets.into_nodes(), of_hex }
+    }
+
+    /// The hexes at each edge, as `12 * h + k` for edge `k` of hex `h`.
+    pub(crate) fn uses(&self) -> Bins {
+        Bins::of(self.ends.len(), self.of_hex.as_flattened().iter().map(|e| e.index()))
+    }
+}
+
+/// The hex that has a side.
+pub fn hex_of(side: Side) -> HexId {
+    HexId(side / 6)
+}
+
+/// The nodes of a side, anticlockwise seen from outside its hex.
+pub fn side_nodes(hexes: &[[NodeId; 8]], side: Side) -> [NodeId; 4] {
+    corners(&hexes[side as usize / 6], FACES[side as usize % 6])
+}
+
+/// The faces that one hex alone has, anticlockwise seen from outside, each with its hex; in the order of
+/// the hexes and of their faces in [`FACES`].
+///
+/// ```
+/// use hexmill::mesh::{NodeId, topology::hex_boundary};
+/// let two = [[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]].map(|hex| hex.map(NodeId));
+/// assert_eq!(hex_boundary(&two).len(), 10);
+/// ```
+pub fn hex_boundary(hexes: &[[NodeId; 8]]) -> Vec<([NodeId; 4], HexId)> {
+    let node_count = hexes.as_flattened().iter().max().map_or(0, |node| node.index() + 1);
+    let faces = HexFaces::of(node_count, hexes);
+    let boundary = faces.ids().filter(|&f| faces.is_boundary(f));
+    boundary.map(|f| (faces.nodes[f.index()], hex_of(faces.sides(f)[0]))).collect()
+}
+
+/// Some corners of a hex.
+fn corners<const N: usize>(hex: &[NodeId; 8], local: [u8; N]) -> [NodeId; N] {
+    local.map(|k| hex[usize::from(k)])
+}

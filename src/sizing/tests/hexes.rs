@@ -1,0 +1,139 @@
+//! Hexes ask the same questions as quads.
+
+use glam::DQuat;
+use proptest::prelude::*;
+
+use super::{OPTIONS, Region, Shape, SizeField, SizeOptions, SizedElement, Target, distance};
+use crate::geometry::Point;
+use crate::geometry::samples::{point, rotation};
+use crate::mesh::numbering::hex::{CORNERS, EDGES};
+use crate::mesh::{HexMesh, NodeId};
+use crate::sizing::SizingError;
+
+/// The hex with the given corners, of level 0.
+fn hex(corners: [Point; 8]) -> SizedElement<8> {
+    let lengths = EDGES.map(|[a, b]| corners[usize::from(a)].distance(corners[usize::from(b)]));
+    SizedElement { corners, longest: lengths.into_iter().fold(0.0, f64::max), level: 0, root: None }
+}
+
+/// The unit cube at (x, y, z).
+fn cube(x: f64, y: f64, z: f64) -> SizedElement<8> {
+    hex(CORNERS.map(|c| Point::new(x, y, z) + Point::from(c.map(f64::from))))
+}
+
+fn mesh(element: &SizedElement<8>) -> HexMesh {
+    let hexes = vec![std::array::from_fn(NodeId::new)];
+    HexMesh { positions: element.corners.to_vec(), hexes, ..HexMesh::default() }
+}
+
+fn wants(shape: &Shape, target: Target, gradation: f64, element: &SizedElement<8>) -> bool {
+    let regions = [Region { shape: shape.clone(), target }];
+    let options = SizeOptions { gradation, regions: &regions, ..OPTIONS };
+    SizeField::of_hexes(&mesh(element), options).expect("valid options").wants(element)
+}
+
+fn overlaps(shape: &Shape, element: &SizedElement<8>) -> bool {
+    wants(shape, Target::Level(9), 2.0, element)
+}
+
+/// The cubes of a grid of 5 x 5 x 5 that overlap the shape, as x, y, z.
+fn picture(shape: &Shape) -> Vec<[usize; 3]> {
+    let all = (0..125).map(|m| [m % 5, m / 5 % 5, m / 25]);
+    let met = |at: &[usize; 3]| {
+        let [x, y, z] = at.map(|c| c as f64);
+        overlaps(shape, &cube(x, y, z))
+    };
+    all.filter(met).collect()
+}
+
+fn cuboid(min: [f64; 3], max: [f64; 3]) -> Shape {
+    Shape::Box { min: min.into(), max: max.into(), rotation: DQuat::IDENTITY }
+}
+
+/// The cubes from `from` up to, but without, `to`.
+fn block(from: [usize; 3], to: [usize; 3]) -> Vec<[usize; 3]> {
+    let all = (0..125).map(|m| [m % 5, m / 5 % 5, m / 25]);
+    all.filter(|at| (0..3).all(|i| (from[i]..to[i]).contains(&at[i]))).collect()
+}
+
+#[test]
+fn boxes_along_the_grid_leave_their_neighbours_alone() {
+    assert_eq!(picture(&cuboid([1., 2., 2.], [3., 3., 4.])), block([1, 2, 2], [3, 3, 4]));
+    assert_eq!(picture(&cuboid([0., 0., 0.], [5., 5., 5.])), block([0; 3], [5; 3]));
+    assert_eq!(picture(&cuboid([2.2, 2.2, 2.2], [2.3, 2.3, 2.3])), block([2; 3], [3; 3]));
+}
+
+#[test]
+fn shapes_of_no_thickness_refine_what_they_lie_in() {
+    assert_eq!(picture(&cuboid([2., 2., 2.], [3., 3., 2.])), block([2, 2, 1], [3, 3, 3]), "a face");
+    assert_eq!(picture(&cuboid([2., 2., 2.], [2., 2., 2.])), block([1; 3], [3; 3]), "a node");
+    let at = |p: [f64; 3]| Shape::Points { points: vec![p.into()], radius: 0.0 };
+    assert_eq!(picture(&at([2.4, 1.7, 3.5])), block([2, 1, 3], [3, 2, 4]), "a governing point");
+    assert_eq!(picture(&at([2., 1.5, 3.5])), block([1, 1, 3], [3, 2, 4]), "in a face");
+}
+
+#[test]
+fn balls_and_drums_in_symmetric_places() {
+    let ball = |radius| Shape::Sphere { center: Point::splat(2.5), radius };
+    assert_eq!(picture(&ball(0.5)), block([2; 3], [3; 3]), "it touches its cube's faces from inside");
+    let star = picture(&ball(0.6));
+    assert_eq!(star.len(), 7, "and the six beside it: {star:?}");
+    let drum = Shape::Cylinder { from: Point::new(2.5, 2.5, 1.), to: Point::new(2.5, 2.5, 4.), radius: 0.4 };
+    assert_eq!(picture(&drum), block([2, 2, 1], [3, 3, 4]));
+}
+
+/// The governing surface of the paper's figure 15: a closed surface, of which the cubes that it passes are refined.
+#[test]
+fn a_closed_surface_refines_what_it_passes() {
+    let [a, b] = [0.5, 4.5];
+    let positions = CORNERS.map(|c| Point::from(c.map(|c| if c == 0 { a } else { b }))).to_vec();
+    let triangles = crate::mesh::numbering::hex::FACES
+        .iter()
+        .flat_map(|f| {
+            let [p, q, r, s] = f.map(u32::from);
+            [[p, q, r], [p, r, s]]
+        })
+        .collect();
+    let shell = Shape::Surface { positions, triangles, distance: 0.0 };
+    let expected: Vec<_> =
+        block([0; 3], [5; 3]).into_iter().filter(|at| at.iter().any(|&c| c == 0 || c == 4)).collect();
+    assert_eq!(picture(&shell), expected);
+}
+
+#[test]
+fn sizes_grade_with_the_distance() {
+    let ball = Shape::Sphere { center: Point::splat(0.5), radius: 0.25 };
+    // At a distance d no edge is longer than 0.25 + 0.5 d: a unit cube that begins 1.5 away may stay.
+    let far = |gap: f64| wants(&ball, Target::Size(0.25), 1.5, &cube(0.75 + gap, 0.0, 0.0));
+    assert!(far(0.0) && far(1.49) && !far(1.51));
+}
+
+#[test]
+fn edges_are_measured_and_levels_end() {
+    let unit = cube(0.0, 0.0, 0.0);
+    let options = SizeOptions { edge_length: Some(0.25), ..OPTIONS };
+    let field = SizeField::of_hexes(&mesh(&unit), options).unwrap();
+    assert!(field.wants(&unit) && field.wants(&SizedElement { longest: 0.5, level: 1, ..unit }));
+    assert!(!field.wants(&SizedElement { longest: 0.25, level: 2, ..unit }));
+    assert!(!field.is_idle_from(1) && field.is_idle_from(2));
+}
+
+#[test]
+fn hexes_have_no_curvature() {
+    let options = SizeOptions { curvature: Some(10.0), ..OPTIONS };
+    let error = SizeField::of_hexes(&mesh(&cube(0., 0., 0.)), options).unwrap_err();
+    assert_eq!((error.clone(), error.code()), (SizingError::CurvatureOfHexes, "curvature-needs-surface"));
+}
+
+proptest! {
+    /// What a cube's samples tell of balls and boxes, up to the samples' distance.
+    #[test]
+    fn agrees_with_samples(center in point(2.0), half in point(1.0), turn in rotation()) {
+        let shape = Shape::Box { min: center - half.abs(), max: center + half.abs(), rotation: turn };
+        let samples = (0..729).map(|m| Point::from([m % 9, m / 9 % 9, m / 81].map(|c| f64::from(c) / 8.0)));
+        let near = samples.map(|p| distance(&shape, p)).fold(f64::INFINITY, f64::min);
+        let met = overlaps(&shape, &cube(0.0, 0.0, 0.0));
+        prop_assert!(met || near > 0.0, "a sample lies in the box");
+        prop_assert!(!met || near <= 3f64.sqrt() / 16.0 + 1e-3, "no sample is near");
+    }
+}
