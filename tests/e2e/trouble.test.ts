@@ -92,12 +92,12 @@ test('too many quads are foretold and refused before the work, with what to do',
 test('more than memory holds is foretold and refused before the work, with what fits', async () => {
   const { page } = await open({ link: '#example=car&levels=8' });
   await page.locator('.file-name').waitFor();
-  await expect.poll(() => page.locator('.estimate .fault').innerText()).toMatch(/more than this page can hold, 15\sM/);
+  await expect.poll(() => page.locator('.estimate .fault').innerText()).toMatch(/more than this page can hold, 11\sM/);
   await page.locator('#mesh').click();
   const complaint = page.locator('#step-mesh .complaint');
   await complaint.waitFor();
   expect(await complaint.getAttribute('data-code')).toBe('memory-exceeded');
-  expect(await complaint.innerText()).toMatch(/15000000/);
+  expect(await complaint.innerText()).toMatch(/11000000/);
 });
 
 test('memory that runs out all the same is said in plain words, and nothing is lost', async () => {

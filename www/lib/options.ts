@@ -4,7 +4,7 @@ import { refuseUnknown } from './known.js';
  * The most quads of a mesh, and the default of `maxQuads`: what 2 GiB of memory hold, which is all that browsers share
  * between threads. The command line goes further.
  */
-export const MOST_QUADS = 15_000_000;
+export const MOST_QUADS = 11_000_000;
 
 /** A point or a direction: x, y, z in model units. */
 export type Vector = readonly [number, number, number];
