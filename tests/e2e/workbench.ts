@@ -107,7 +107,7 @@ export class Workbench {
   /** Meshes and waits for the result. */
   async mesh(): Promise<void> {
     await this.page.locator('#mesh').click();
-    await this.page.locator('#mesh', { hasText: 'Meshed' }).waitFor({ timeout: 60_000 });
+    await this.page.locator('#mesh', { hasText: 'Meshed' }).waitFor({ timeout: 180_000 });
     await this.settle();
   }
 
