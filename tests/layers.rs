@@ -6,11 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules by rank. A module may use modules of a lower rank and itself, none of its own rank or higher.
-const RANKS: [&[&str]; 9] = [
+const RANKS: [&[&str]; 10] = [
     &["geometry", "monitor"],
     &["mesh"],
     &["template", "sizing", "solid", "graph"],
     &["forest"],
+    &["optimize"],
     &["refine"],
     &["hexing"],
     &["io", "scene"],
