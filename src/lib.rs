@@ -15,6 +15,7 @@
 //! | [`template`] | refinement templates as data |
 //! | [`sizing`] | where to refine and how far |
 //! | [`forest`] | quadtrees over unstructured coarse cells, strong balance |
+//! | [`optimize`] | untangling and smoothing of hexes |
 //! | [`refine`] | conforming refinement (Ebeida, Patney, Owens, Mestreau) |
 //! | [`io`] | bytes in, bytes out: OBJ, VTU, VTK, MSH, INP, MEDIT, GLB |
 //! | [`scene`] | meshes as f32 draw buffers; no GPU |
@@ -27,6 +28,8 @@ pub mod sizing;
 pub mod template;
 
 pub mod forest;
+
+pub mod optimize;
 
 pub mod refine;
 

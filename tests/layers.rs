@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 use proc_macro2::{Punct, Spacing, TokenStream, TokenTree};
 
 /// Modules by rank. A module may use modules of a lower rank and itself, none of its own rank or higher.
-const RANKS: [&[&str]; 9] = [
+const RANKS: [&[&str]; 10] = [
     &["geometry", "monitor"],
     &["mesh"],
     &["template", "sizing", "solid", "graph"],
     &["forest"],
+    &["optimize"],
     &["refine"],
     &["hexing"],
     &["io", "scene"],

@@ -21,7 +21,7 @@ pub use closest::{closest_on_segment, closest_on_triangle, segment_weights, tria
 pub use frame::Frame;
 pub use gjk::{Convex, hull_within};
 pub use hull::{Corners, Hull};
-pub use nearest_triangle::NearestTriangle;
+pub use nearest_triangle::{Nearest, NearestTriangle};
 pub use quad_hull::QuadHull;
 pub use solid::Solid;
 pub use triangulate::{area_vector, triangulate};

@@ -10,19 +10,38 @@ pub struct NearestTriangle {
     tree: RTree<Leaf>,
 }
 
-/// A triangle by its corners.
+/// A triangle by its corners, and its place in the order in which the triangles were given.
 #[derive(Clone, Debug)]
-struct Leaf([Point; 3]);
+struct Leaf {
+    corners: [Point; 3],
+    index: usize,
+}
+
+/// The triangle that is nearest to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// Its place in the order in which the triangles were given.
+    pub triangle: usize,
+    /// Its point that is closest.
+    pub point: Point,
+}
 
 impl NearestTriangle {
     /// An index of triangles with finite corners.
     pub fn new(triangles: impl IntoIterator<Item = [Point; 3]>) -> Self {
-        Self { tree: RTree::bulk_load(triangles.into_iter().map(Leaf).collect()) }
+        let leaves = triangles.into_iter().enumerate().map(|(index, corners)| Leaf { corners, index });
+        Self { tree: RTree::bulk_load(leaves.collect()) }
+    }
+
+    /// The triangle that is nearest to `p`; `None` if there are no triangles.
+    pub fn nearest(&self, p: Point) -> Option<Nearest> {
+        let leaf = self.tree.nearest_neighbor(p.to_array())?;
+        Some(Nearest { triangle: leaf.index, point: closest_on_triangle(p, leaf.corners) })
     }
 
     /// The point of a triangle that is closest to `p`; `None` if there are no triangles.
     pub fn closest_point(&self, p: Point) -> Option<Point> {
-        self.tree.nearest_neighbor(p.to_array()).map(|leaf| closest_on_triangle(p, leaf.0))
+        self.nearest(p).map(|nearest| nearest.point)
     }
 }
 
@@ -30,7 +49,7 @@ impl RTreeObject for Leaf {
     type Envelope = AABB<[f64; 3]>;
 
     fn envelope(&self) -> Self::Envelope {
-        let bounds = Aabb::around(&self.0);
+        let bounds = Aabb::around(&self.corners);
         AABB::from_corners(bounds.min.to_array(), bounds.max.to_array())
     }
 }
@@ -38,7 +57,7 @@ impl RTreeObject for Leaf {
 impl PointDistance for Leaf {
     fn distance_2(&self, point: &[f64; 3]) -> f64 {
         let point = Point::from_array(*point);
-        closest_on_triangle(point, self.0).distance_squared(point)
+        closest_on_triangle(point, self.corners).distance_squared(point)
     }
 }
 
@@ -71,7 +90,9 @@ mod tests {
                 .iter()
                 .map(|t| closest_on_triangle(p, *t).distance(p))
                 .fold(f64::INFINITY, f64::min);
-            assert_eq!(index.closest_point(p).unwrap().distance(p), walked, "{p}");
+            let nearest = index.nearest(p).unwrap();
+            assert_eq!(nearest.point.distance(p), walked, "{p}");
+            assert_eq!(closest_on_triangle(p, triangles[nearest.triangle]), nearest.point, "{p}");
         }
     }
 

@@ -124,6 +124,25 @@ pub mod hex {
     /// No edge or face.
     pub const NONE: u8 = u8::MAX;
 
+    /// The corners at the other ends of the three edges of each corner, in the order in which their directions are
+    /// right-handed.
+    pub const NEIGHBOURS: [[u8; 3]; 8] = neighbours();
+
+    /// Along x, y and z from an even corner; from an odd one that would be left-handed.
+    const fn neighbours() -> [[u8; 3]; 8] {
+        let mut all = [[0; 3]; 8];
+        let mut k = 0;
+        while k < 8 {
+            let bits = CORNER_AT[k] as usize;
+            let odd = bits.count_ones() % 2 == 1;
+            all[k][0] = CORNER_AT[bits ^ 1];
+            all[k][if odd { 2 } else { 1 }] = CORNER_AT[bits ^ 2];
+            all[k][if odd { 1 } else { 2 }] = CORNER_AT[bits ^ 4];
+            k += 1;
+        }
+        all
+    }
+
     /// The 48 symmetries: `s[k]` is where corner `k` goes. The identity is first; the first 24 turn,
     /// the others mirror.
     pub const SYMMETRIES: [[u8; 8]; 48] = symmetries();
@@ -204,6 +223,18 @@ mod tests {
         for [a, b] in hex::EDGES {
             assert_eq!(differing(hex::CORNERS[a as usize], hex::CORNERS[b as usize]), 1);
             assert!(hex::CORNERS[a as usize] < hex::CORNERS[b as usize]);
+        }
+    }
+
+    #[test]
+    fn neighbours_are_right_handed() {
+        for (k, ends) in hex::NEIGHBOURS.into_iter().enumerate() {
+            let [a, b, c] = ends.map(|end| {
+                let [to, from] = [end.into(), k].map(|k: usize| hex::CORNERS[k].map(i32::from));
+                [0, 1, 2].map(|i| to[i] - from[i])
+            });
+            let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+            assert_eq!(a[0] * cross[0] + a[1] * cross[1] + a[2] * cross[2], 1, "corner {k}");
         }
     }
 

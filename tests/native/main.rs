@@ -5,6 +5,7 @@ mod cli;
 mod formats;
 mod hashes;
 mod obj;
+mod optimize;
 mod refine;
 mod scene;
 mod sizing;

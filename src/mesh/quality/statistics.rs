@@ -105,3 +105,6 @@ impl Distribution {
         Some(Self { summary: Summary::of(values)?, histogram: Histogram::of(values, range, bins) })
     }
 }
+
+#[cfg(test)]
+mod tests;

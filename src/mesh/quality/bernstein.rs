@@ -1,0 +1,213 @@
+//! The sign of a hex's Jacobian everywhere inside it, not at its corners alone.
+//!
+//! The determinant of the Jacobian of a trilinear hex has degree 2 in each of its three parameters. It is written
+//! in Bernstein's basis, with 27 coefficients:
+//!
+//! 1. the coefficients at the eight corners are the determinants there; no value inside is below the least of all 27;
+//! 2. where that does not decide, the hex is halved where its coefficients differ most (de Casteljau), and the halves
+//!    are asked, those with the least coefficients first.
+//!
+//! As Johnen, Weill, Remacle, *Robust and efficient validation of the linear hexahedral element* (2017), with the
+//! coefficients in closed form.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use crate::geometry::Point;
+use crate::mesh::numbering::hex::CORNER_AT;
+
+/// Parts that are looked at before a hex is given up as undecided.
+const MAX_PARTS: usize = 2048;
+
+/// Coefficients are exact up to this share of the product of the longest edges in the three directions.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The width of [`min_jacobian_bound`]'s answer, as a share of the greatest coefficient.
+const GAP: f64 = 1e-3;
+
+/// What is known of the sign of a hex's Jacobian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Certainty {
+    /// Above zero in all of the hex.
+    Positive,
+    /// At some point of the hex not above zero, as far as rounding lets tell.
+    NotPositive,
+    /// So close to zero somewhere that the parts looked at did not decide.
+    Undecided,
+}
+
+/// Two numbers between which the least value lies that the Jacobian determinant has in a hex; volumes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JacobianBound {
+    /// No value is below.
+    pub lower: f64,
+    /// A value that the determinant has.
+    pub upper: f64,
+}
+
+/// Is the Jacobian determinant of the trilinear hex positive everywhere? Corners are in the order of
+/// VTK_HEXAHEDRON.
+///
+/// ```
+/// use hexmill::mesh::{numbering::hex::CORNERS, quality::{Certainty, is_positive}};
+/// let cube = CORNERS.map(|c| hexmill::geometry::Point::from(c.map(f64::from)));
+/// assert_eq!(is_positive(&cube), Certainty::Positive);
+/// ```
+pub fn is_positive(corners: &[Point; 8]) -> Certainty {
+    let whole = Part::of(corners);
+    let zero = ROUNDING * magnitude(corners);
+    if whole.least() > zero {
+        return Certainty::Positive;
+    }
+    let mut queue = BinaryHeap::from([whole]);
+    for _ in 0..MAX_PARTS {
+        let Some(part) = queue.pop() else { return Certainty::Positive };
+        // Written so that a number that is none is not positive.
+        if part.ends().any(|value| value.is_nan() || value <= zero) {
+            return Certainty::NotPositive;
+        }
+        queue.extend(part.halves().into_iter().filter(|half| half.least() <= zero));
+    }
+    Certainty::Undecided
+}
+
+/// Encloses the least value of the Jacobian determinant of the trilinear hex, to a thousandth of its greatest
+/// coefficient. Corners are in the order of VTK_HEXAHEDRON.
+pub fn min_jacobian_bound(corners: &[Point; 8]) -> JacobianBound {
+    let whole = Part::of(corners);
+    let gap = GAP * whole.0.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
+    let mut bound = JacobianBound { lower: whole.least(), upper: f64::INFINITY };
+    let mut queue = BinaryHeap::from([whole]);
+    for _ in 0..MAX_PARTS {
+        let Some(part) = queue.pop() else { break };
+        bound.lower = part.least();
+        bound.upper = part.ends().fold(bound.upper, f64::min);
+        if bound.upper - bound.lower <= gap {
+            break;
+        }
+        queue.extend(part.halves());
+    }
+    bound
+}
+
+/// The integral of the Jacobian determinant: the mean of its coefficients.
+pub(super) fn volume(corners: &[Point; 8]) -> f64 {
+    Part::of(corners).0.iter().sum::<f64>() / 27.0
+}
+
+/// The product of the longest edges in the three directions.
+fn magnitude(corners: &[Point; 8]) -> f64 {
+    let edges = Edges::of(corners);
+    let longest = |edges: &[[Point; 2]; 2]| {
+        edges.as_flattened().iter().fold(0.0, |most: f64, e| most.max(e.length_squared())).sqrt()
+    };
+    longest(&edges.x) * longest(&edges.y) * longest(&edges.z)
+}
+
+/// The edges of a hex by direction: `x[j][k]` at y = j, z = k; `y[i][k]`; `z[i][j]`.
+struct Edges {
+    x: [[Point; 2]; 2],
+    y: [[Point; 2]; 2],
+    z: [[Point; 2]; 2],
+}
+
+impl Edges {
+    fn of(corners: &[Point; 8]) -> Self {
+        let at = |i: usize, j: usize, k: usize| corners[usize::from(CORNER_AT[i + 2 * j + 4 * k])];
+        let table = |edge: &dyn Fn(usize, usize) -> Point| [0, 1].map(|a| [0, 1].map(|b| edge(a, b)));
+        Self {
+            x: table(&|j, k| at(1, j, k) - at(0, j, k)),
+            y: table(&|i, k| at(i, 1, k) - at(i, 0, k)),
+            z: table(&|i, j| at(i, j, 1) - at(i, j, 0)),
+        }
+    }
+}
+
+/// A quadratic in x, y and z over a part of the hex: the coefficient at i, j, k stands at i + 3j + 9k.
+#[derive(Clone, Copy)]
+struct Part([f64; 27]);
+
+/// Where the coefficients stand that are values at the part's corners.
+const ENDS: [usize; 8] = [0, 2, 6, 8, 18, 20, 24, 26];
+
+/// The distance between neighbouring coefficients along x, y, z.
+const STRIDES: [usize; 3] = [1, 3, 9];
+
+impl Part {
+    /// Each pair of linear factors in one parameter multiplies to a quadratic whose middle coefficient is the mean
+    /// of two products.
+    fn of(corners: &[Point; 8]) -> Self {
+        let edges = Edges::of(corners);
+        let mut sums = [0.0; 27];
+        for yi in 0..2 {
+            for yk in 0..2 {
+                for zi in 0..2 {
+                    for zj in 0..2 {
+                        let area = edges.y[yi][yk].cross(edges.z[zi][zj]);
+                        for (xj, row) in edges.x.iter().enumerate() {
+                            for (xk, edge) in row.iter().enumerate() {
+                                sums[yi + zi + 3 * (xj + zj) + 9 * (xk + yk)] += edge.dot(area);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        const SHARE: [f64; 3] = [1.0, 0.5, 1.0];
+        Self(std::array::from_fn(|c| sums[c] * (SHARE[c % 3] * SHARE[c / 3 % 3] * SHARE[c / 9])))
+    }
+
+    /// The least coefficient, or NaN where there is one.
+    fn least(&self) -> f64 {
+        self.0.iter().fold(f64::INFINITY, |least, &c| if c < least || c.is_nan() { c } else { least })
+    }
+
+    fn ends(&self) -> impl Iterator<Item = f64> {
+        ENDS.into_iter().map(|c| self.0[c])
+    }
+
+    /// The two halves along the axis along which neighbouring coefficients differ most.
+    fn halves(&self) -> [Self; 2] {
+        let steepness = STRIDES.map(|stride| {
+            let pairs = (0..27).filter(|c| c / stride % 3 < 2);
+            pairs.map(|c| (self.0[c + stride] - self.0[c]).abs()).fold(0.0, f64::max)
+        });
+        let steeper = |a: usize, b: usize| if steepness[b] > steepness[a] { b } else { a };
+        let stride = STRIDES[steeper(steeper(0, 1), 2)];
+        let [mut low, mut high] = [*self; 2];
+        for first in (0..27).filter(|c: &usize| (c / stride).is_multiple_of(3)) {
+            let [a, b, c] = [0, 1, 2].map(|i| self.0[first + i * stride]);
+            let (ab, bc) = ((a + b) / 2.0, (b + c) / 2.0);
+            let middle = (ab + bc) / 2.0;
+            for (i, (l, h)) in [(a, middle), (ab, bc), (middle, c)].into_iter().enumerate() {
+                low.0[first + i * stride] = l;
+                high.0[first + i * stride] = h;
+            }
+        }
+        [low, high]
+    }
+}
+
+/// The part with the least coefficient is the greatest: it comes first out of a heap.
+impl Ord for Part {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.least().total_cmp(&self.least())
+    }
+}
+
+impl PartialOrd for Part {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Part {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Part {}
+
+#[cfg(test)]
+mod tests;

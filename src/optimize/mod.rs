@@ -1,0 +1,130 @@
+//! Moves nodes until every hex is positive, then until the worst are as good as can be. Topology stays.
+//!
+//! The energy is a sum of powers over the corners of the cells (see `energy`), regularised so that it is finite for
+//! inverted ones, and lowered node by node with Newton steps:
+//!
+//! 1. `constraint`: boundary nodes slide on the input's boundary surface, along its curves, or stay;
+//! 2. `problem`: the cells around the movable nodes, and nodes coloured so that those of one colour share no cell;
+//! 3. `untangle`: cells that are not positive are pushed open by a regularised energy;
+//! 4. `smooth`: shape first, then more and more the worst corners alone.
+//!
+//! Promises: a step never makes a positive cell not positive (at its corners, and inside by Bernstein's bound), and
+//! never lowers the worst scaled Jacobian, once untangled. Nodes that are not movable do not move. The same bytes for
+//! any number of threads. Time is linear in the cells around movable nodes, but for one pass over all hexes.
+//!
+//! Refuses nothing: cells that stay inverted are listed in the report, for the caller to repair.
+
+mod constraint;
+mod energy;
+mod problem;
+mod smooth;
+mod star;
+mod surface;
+mod sweep;
+mod symmetric;
+mod untangle;
+
+pub use constraint::{Constraints, Freedom};
+pub use surface::BoundarySurface;
+
+use crate::geometry::Point;
+use crate::mesh::{HexId, NodeId};
+use crate::{Cancelled, Monitor, Stage};
+use problem::Problem;
+
+/// How far to go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OptimizeOptions {
+    /// Cells whose scaled Jacobian is above this are good enough: only their worse neighbours move them.
+    pub target: f64,
+    /// Sweeps over the tangled part before the cells left are given up.
+    pub untangle_sweeps: usize,
+    /// Sweeps over the cells below the target in each of the stages of smoothing.
+    pub smooth_sweeps: usize,
+}
+
+impl Default for OptimizeOptions {
+    fn default() -> Self {
+        Self { target: 0.75, untangle_sweeps: 200, smooth_sweeps: 8 }
+    }
+}
+
+/// What was done, over the cells around movable nodes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OptimizeReport {
+    /// Cells around movable nodes.
+    pub cells: usize,
+    /// Their least scaled Jacobian before; `None` if there are none.
+    pub worst_before: Option<f64>,
+    /// Their least scaled Jacobian after.
+    pub worst_after: Option<f64>,
+    /// Their mean scaled Jacobian before, 0 if there are none.
+    pub mean_before: f64,
+    /// Their mean scaled Jacobian after.
+    pub mean_after: f64,
+    /// Nodes that stand elsewhere than before.
+    pub moved: usize,
+    /// The greatest distance of a movable boundary node from where its freedom lets it be.
+    pub off_boundary: f64,
+    /// Cells that are not certainly positive, ascending.
+    pub inverted: Vec<HexId>,
+    /// Rounds over nodes that were made.
+    pub sweeps: usize,
+}
+
+/// The stages that a monitor hears of.
+const UNTANGLING: Stage = Stage("untangling");
+const SMOOTHING: Stage = Stage("smoothing");
+
+/// Untangles and smooths the hexes around the nodes that are `movable` (one flag a node), within `constraints`.
+///
+/// `positions` are left as they were if the work is cancelled.
+///
+/// # Errors
+/// [`Cancelled`] when the monitor says so.
+///
+/// # Panics
+/// If a hex names a node that has no position, flag or constraint.
+///
+/// ```
+/// use hexmill::{Silent, geometry::Point, mesh::{NodeId, numbering::hex::CORNERS}};
+/// use hexmill::optimize::{Constraints, optimize};
+/// // A cube with one corner pushed through the opposite one.
+/// let mut positions = CORNERS.map(|c| Point::from(c.map(f64::from)));
+/// positions[6] = Point::splat(-0.5);
+/// let hexes = [[0, 1, 2, 3, 4, 5, 6, 7].map(NodeId)];
+/// let movable = [false, false, false, false, false, false, true, false];
+/// let report =
+///     optimize(&mut positions, &hexes, &movable, &Constraints::none(8), &Default::default(), &Silent).unwrap();
+/// assert!(report.worst_before.unwrap() < 0.0 && report.worst_after.unwrap() > 0.9);
+/// ```
+pub fn optimize(
+    positions: &mut [Point],
+    hexes: &[[NodeId; 8]],
+    movable: &[bool],
+    constraints: &Constraints,
+    options: &OptimizeOptions,
+    monitor: &dyn Monitor,
+) -> Result<OptimizeReport, Cancelled> {
+    let mut problem = Problem::new(positions, hexes, movable, constraints);
+    let before = problem.state();
+    let mut sweeps = untangle::untangle(&mut problem, options, monitor)?;
+    sweeps += smooth::smooth(&mut problem, options, monitor)?;
+    let mut after = problem.state();
+    if after.is_worse_than(&before) {
+        problem.points.clone_from(&problem.anchors);
+        after = before.clone();
+    }
+    let moved = problem.write_back(positions);
+    Ok(OptimizeReport {
+        cells: problem.cells.len(),
+        worst_before: before.worst(),
+        worst_after: after.worst(),
+        mean_before: before.mean(),
+        mean_after: after.mean(),
+        moved,
+        off_boundary: problem.off_boundary(),
+        inverted: after.inverted(&problem),
+        sweeps,
+    })
+}

@@ -1,0 +1,223 @@
+//! The part of a mesh that moves, numbered for itself: the nodes that move, the cells around them, and who may move
+//! at the same time.
+
+use rayon::prelude::*;
+
+use super::constraint::Constraints;
+use super::sweep::LANE;
+use crate::geometry::Point;
+use crate::mesh::numbering::hex::EDGES;
+use crate::mesh::quality::{Certainty, is_positive, scaled_jacobian};
+use crate::mesh::{HexId, NodeId};
+
+/// No node of the problem.
+const NONE: u32 = u32::MAX;
+
+/// The cells around the movable nodes. Nodes of the problem are numbered in the mesh's order, movable ones first.
+pub(super) struct Problem<'a> {
+    pub(super) constraints: &'a Constraints<'a>,
+    /// The mesh's node of each node, and where the node is, and was at first.
+    pub(super) nodes: Vec<NodeId>,
+    pub(super) points: Vec<Point>,
+    pub(super) anchors: Vec<Point>,
+    /// The nodes of each cell, and the mesh's hex.
+    pub(super) cells: Vec<[u32; 8]>,
+    hexes: Vec<HexId>,
+    /// The cube of each cell's mean edge at first: what its determinants are measured against.
+    pub(super) volume: Vec<f64>,
+    /// The cells that are positive in all of their inside.
+    pub(super) positive: Vec<bool>,
+    /// Where the cells of each movable node start in `around`: a cell, and which of its corners the node is.
+    starts: Vec<u32>,
+    around: Vec<(u32, u8)>,
+    /// Movable nodes by colour, ascending: two of one colour share no cell.
+    pub(super) colours: Vec<Vec<u32>>,
+}
+
+impl<'a> Problem<'a> {
+    pub(super) fn new(
+        positions: &[Point],
+        hexes: &[[NodeId; 8]],
+        movable: &[bool],
+        constraints: &'a Constraints<'a>,
+    ) -> Self {
+        let moves = |n: NodeId| movable[n.index()] && !constraints.is_fixed(n);
+        let touched: Vec<usize> =
+            (0..hexes.len()).into_par_iter().filter(|&h| hexes[h].iter().any(|&n| moves(n))).collect();
+        let mut used = vec![false; positions.len()];
+        for &h in &touched {
+            for n in hexes[h] {
+                used[n.index()] = true;
+            }
+        }
+        let of_kind = |wanted: bool| {
+            let used = &used;
+            (0..positions.len()).map(NodeId::new).filter(move |&n| used[n.index()] && moves(n) == wanted)
+        };
+        let mut nodes: Vec<NodeId> = of_kind(true).collect();
+        let movable_count = nodes.len();
+        nodes.extend(of_kind(false));
+        let mut local = vec![NONE; positions.len()];
+        for (i, n) in (0u32..).zip(&nodes) {
+            local[n.index()] = i;
+        }
+        let cells: Vec<[u32; 8]> = touched.iter().map(|&h| hexes[h].map(|n| local[n.index()])).collect();
+        let points: Vec<Point> = nodes.iter().map(|n| positions[n.index()]).collect();
+        let (starts, around) = stars(&cells, movable_count);
+        let mut problem = Self {
+            constraints,
+            anchors: points.clone(),
+            hexes: touched.into_iter().map(HexId::new).collect(),
+            volume: cells.par_iter().map(|cell| cell_size(&cell.map(|n| points[n as usize]))).collect(),
+            positive: Vec::new(),
+            colours: Vec::new(),
+            nodes,
+            points,
+            cells,
+            starts,
+            around,
+        };
+        problem.colours = problem.colour();
+        problem.find_positive();
+        problem
+    }
+
+    /// How many nodes may move: they are numbered first.
+    pub(super) fn movable(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The cells around a movable node, each with the node's corner.
+    pub(super) fn star(&self, node: u32) -> &[(u32, u8)] {
+        &self.around[self.starts[node as usize] as usize..self.starts[node as usize + 1] as usize]
+    }
+
+    /// Where the corners of a cell are.
+    pub(super) fn corners(&self, cell: usize) -> [Point; 8] {
+        self.cells[cell].map(|n| self.points[n as usize])
+    }
+
+    /// Asks every cell again whether it is positive.
+    pub(super) fn find_positive(&mut self) {
+        self.positive = (0..self.cells.len())
+            .into_par_iter()
+            .with_min_len(LANE)
+            .map(|cell| is_positive(&self.corners(cell)) == Certainty::Positive)
+            .collect();
+    }
+
+    /// The scaled Jacobian of each cell.
+    pub(super) fn scaled_jacobians(&self) -> Vec<f64> {
+        let cells = (0..self.cells.len()).into_par_iter().with_min_len(LANE);
+        cells.map(|cell| scaled_jacobian(&self.corners(cell))).collect()
+    }
+
+    /// How the cells are now.
+    pub(super) fn state(&mut self) -> State {
+        self.find_positive();
+        State { jacobians: self.scaled_jacobians(), positive: self.positive.clone() }
+    }
+
+    /// Greedy colours in the order of nodes.
+    fn colour(&self) -> Vec<Vec<u32>> {
+        let mut colour_of = vec![NONE; self.movable()];
+        let mut colours: Vec<Vec<u32>> = Vec::new();
+        let mut taken_by: Vec<u32> = Vec::new();
+        for node in 0..self.movable() as u32 {
+            for &(cell, _) in self.star(node) {
+                for other in self.cells[cell as usize] {
+                    if let Some(&colour) = colour_of.get(other as usize)
+                        && colour != NONE
+                    {
+                        taken_by[colour as usize] = node;
+                    }
+                }
+            }
+            let colour = taken_by.iter().position(|&by| by != node).unwrap_or(colours.len());
+            if colour == colours.len() {
+                colours.push(Vec::new());
+                taken_by.push(NONE);
+            }
+            colour_of[node as usize] = colour as u32;
+            colours[colour].push(node);
+        }
+        colours
+    }
+
+    /// Copies the nodes back into the mesh; how many stand elsewhere than before.
+    pub(super) fn write_back(&self, positions: &mut [Point]) -> usize {
+        let bits = |p: Point| p.to_array().map(f64::to_bits);
+        let mut moved = 0;
+        for (node, point) in self.nodes.iter().zip(&self.points).take(self.movable()) {
+            moved += usize::from(bits(positions[node.index()]) != bits(*point));
+            positions[node.index()] = *point;
+        }
+        moved
+    }
+
+    /// The greatest distance of a movable node from where its freedom lets it be.
+    pub(super) fn off_boundary(&self) -> f64 {
+        let nodes = (0..self.movable()).into_par_iter().with_min_len(LANE);
+        nodes.map(|i| self.constraints.distance(self.nodes[i], self.points[i])).reduce(|| 0.0, f64::max)
+    }
+}
+
+/// The cells around each of the first `count` nodes, by a counting sort.
+fn stars(cells: &[[u32; 8]], count: usize) -> (Vec<u32>, Vec<(u32, u8)>) {
+    let mut starts = vec![0u32; count + 1];
+    let corners = || {
+        cells
+            .iter()
+            .enumerate()
+            .flat_map(|(c, cell)| (0u8..).zip(cell).map(move |(k, &n)| (c, k, n as usize)))
+    };
+    for (_, _, node) in corners().filter(|&(_, _, n)| n < count) {
+        starts[node + 1] += 1;
+    }
+    for node in 0..count {
+        starts[node + 1] += starts[node];
+    }
+    let mut next = starts.clone();
+    let mut around = vec![(0, 0); starts[count] as usize];
+    for (cell, k, node) in corners().filter(|&(_, _, n)| n < count) {
+        around[next[node] as usize] = (cell as u32, k);
+        next[node] += 1;
+    }
+    (starts, around)
+}
+
+fn cell_size(corners: &[Point; 8]) -> f64 {
+    let total: f64 =
+        EDGES.iter().map(|&[a, b]| corners[usize::from(a)].distance(corners[usize::from(b)])).sum();
+    let mean = total / EDGES.len() as f64;
+    mean * mean * mean
+}
+
+/// How the cells are at some time.
+#[derive(Clone)]
+pub(super) struct State {
+    jacobians: Vec<f64>,
+    positive: Vec<bool>,
+}
+
+impl State {
+    pub(super) fn worst(&self) -> Option<f64> {
+        self.jacobians.iter().copied().reduce(f64::min)
+    }
+
+    pub(super) fn mean(&self) -> f64 {
+        self.jacobians.iter().sum::<f64>() / self.jacobians.len().max(1) as f64
+    }
+
+    pub(super) fn inverted(&self, problem: &Problem) -> Vec<HexId> {
+        let cells = self.positive.iter().zip(&problem.hexes);
+        cells.filter(|(positive, _)| !**positive).map(|(_, &hex)| hex).collect()
+    }
+
+    /// More cells that are not positive, or as many and the worst is worse.
+    pub(super) fn is_worse_than(&self, other: &Self) -> bool {
+        let count = |state: &Self| state.positive.iter().filter(|&&p| !p).count();
+        let (mine, theirs) = (count(self), count(other));
+        mine > theirs || mine == theirs && self.worst() < other.worst()
+    }
+}

@@ -1,0 +1,191 @@
+//! The boundary surface on which boundary nodes are kept: patches that meet at curves.
+//!
+//! 1. Faces that meet at less than the ridge angle belong to one patch.
+//! 2. The other edges are curves, one for each pair of patches (a patch with itself at a crease that ends inside it).
+//! 3. A patch whose normals all agree is a plane, a curve whose edges all agree is straight: there nothing is looked
+//!    up, and nodes stay to the last bits. On the others a node goes to the nearest point.
+
+use std::collections::BTreeMap;
+
+use crate::geometry::{NearestTriangle, Point, area_vector, triangulate};
+use crate::mesh::topology::{Sets, disagrees, edge_ids};
+use crate::mesh::{EdgeId, Edges, Faces, topology::EdgeUses};
+
+/// Unit vectors whose difference is below this are one direction: far above rounding, far below what shows.
+const SAME: f64 = 1e-9;
+
+/// A surface in patches and curves.
+#[derive(Debug, Default)]
+pub struct BoundarySurface {
+    patches: Vec<Piece>,
+    curves: Vec<Piece>,
+    /// The curve between two patches, the lesser first.
+    curve_between: BTreeMap<[u32; 2], u32>,
+    /// All triangles, and the patch of each.
+    triangles: Option<(NearestTriangle, Vec<u32>)>,
+}
+
+/// A patch or a curve.
+#[derive(Debug)]
+struct Piece {
+    /// Its triangles; a curve's edges as triangles without area.
+    nearest: NearestTriangle,
+    /// The unit normal of each triangle, or the unit direction of each edge.
+    directions: Vec<Point>,
+    /// If all of these agree, up to their sign.
+    constant: Option<Point>,
+}
+
+impl Piece {
+    fn new(triangles: Vec<[Point; 3]>, direction: impl Fn(&[Point; 3]) -> Point) -> Self {
+        let directions: Vec<Point> = triangles.iter().map(direction).collect();
+        let first = directions.iter().copied().find(|&d| d != Point::ZERO);
+        let agrees = |first: Point| {
+            let same = |d: &Point| d.cross(first).length() <= SAME;
+            directions.iter().all(same).then_some(first)
+        };
+        Self { constant: first.and_then(agrees), nearest: NearestTriangle::new(triangles), directions }
+    }
+
+    /// The normal or direction where `p` is nearest to the piece.
+    fn direction(&self, p: Point) -> Point {
+        self.constant
+            .or_else(|| self.nearest.nearest(p).map(|found| self.directions[found.triangle]))
+            .unwrap_or_default()
+    }
+
+    fn closest(&self, p: Point) -> Point {
+        self.nearest.closest_point(p).unwrap_or(p)
+    }
+}
+
+impl BoundarySurface {
+    /// Patches of a surface; edges at which faces meet at more than `ridge_degrees` are curves, as are edges of any
+    /// other number of faces than two. Node ids are in range, positions finite.
+    pub fn new(surface: &impl Faces, ridge_degrees: f64) -> Self {
+        let edges = Edges::of(surface);
+        let uses = EdgeUses::of(&edges);
+        let positions = surface.positions();
+        let corners =
+            |f: usize| -> Vec<Point> { surface.nodes_of(f).iter().map(|n| positions[n.index()]).collect() };
+        let normals: Vec<Point> =
+            (0..surface.face_count()).map(|f| area_vector(&corners(f)).normalize_or_zero()).collect();
+        let ridge_cosine = libm::cos(ridge_degrees.to_radians());
+        let faces_at = |e: EdgeId| uses.at(e).iter().map(|&k| surface.face_of(k as usize));
+        let is_smooth = |e: EdgeId| {
+            let faces: Vec<usize> = faces_at(e).collect();
+            let &[f, g] = faces.as_slice() else { return false };
+            let cosine = normals[f].dot(normals[g]);
+            (if disagrees(surface, &uses, e) { -cosine } else { cosine }) > ridge_cosine
+        };
+        let mut sets = Sets::new(surface.face_count());
+        let mut ridges = Vec::new();
+        for e in edge_ids(&edges) {
+            if is_smooth(e) {
+                let faces: Vec<usize> = faces_at(e).collect();
+                sets.join(faces[0] as u32, faces[1] as u32, false);
+            } else {
+                ridges.push(e);
+            }
+        }
+        let patch_of_face = numbered(&mut sets, surface.face_count());
+        let (triangles, patch_of_triangle) = triangles(surface, &patch_of_face);
+        let patch_count = patch_of_face.iter().max().map_or(0, |&p| p as usize + 1);
+        let mut by_patch = vec![Vec::new(); patch_count];
+        for (triangle, &patch) in triangles.iter().zip(&patch_of_triangle) {
+            by_patch[patch as usize].push(*triangle);
+        }
+        let mut by_pair: BTreeMap<[u32; 2], Vec<[Point; 3]>> = BTreeMap::new();
+        for e in ridges {
+            let [a, b] = edges.ends[e.index()].map(|n| positions[n.index()]);
+            by_pair.entry(pair(faces_at(e).map(|f| patch_of_face[f]))).or_default().push([a, b, b]);
+        }
+        Self {
+            patches: by_patch.into_iter().map(|t| Piece::new(t, unit_normal)).collect(),
+            curve_between: by_pair.keys().copied().zip(0..).collect(),
+            curves: by_pair
+                .into_values()
+                .map(|t| Piece::new(t, |t| (t[1] - t[0]).normalize_or_zero()))
+                .collect(),
+            triangles: Some((NearestTriangle::new(triangles), patch_of_triangle)),
+        }
+    }
+
+    /// The patch nearest to `p`; `None` if the surface has no faces.
+    pub fn patch_at(&self, p: Point) -> Option<u32> {
+        let (nearest, patch) = self.triangles.as_ref()?;
+        Some(patch[nearest.nearest(p)?.triangle])
+    }
+
+    /// The curve between two patches, or within one.
+    pub(super) fn curve_between(&self, patches: [u32; 2]) -> Option<u32> {
+        self.curve_between.get(&pair(patches.into_iter())).copied()
+    }
+
+    /// How far `p` is from a curve.
+    pub(super) fn distance_to_curve(&self, curve: u32, p: Point) -> f64 {
+        self.curves[curve as usize].closest(p).distance(p)
+    }
+
+    /// How far `p` is from a patch.
+    pub(super) fn distance_to_patch(&self, patch: u32, p: Point) -> f64 {
+        self.patches[patch as usize].closest(p).distance(p)
+    }
+
+    /// The unit normal of a patch where `p` is nearest to it.
+    pub(super) fn normal(&self, patch: u32, p: Point) -> Point {
+        self.patches[patch as usize].direction(p)
+    }
+
+    /// The unit direction of a curve where `p` is nearest to it.
+    pub(super) fn tangent(&self, curve: u32, p: Point) -> Point {
+        self.curves[curve as usize].direction(p)
+    }
+
+    /// The point of a patch to which `p` belongs, for a node that was at `anchor` at first.
+    pub(super) fn onto_patch(&self, patch: u32, anchor: Point, p: Point) -> Point {
+        let piece = &self.patches[patch as usize];
+        match piece.constant {
+            Some(normal) => p - normal * normal.dot(p - anchor),
+            None => piece.closest(p),
+        }
+    }
+
+    /// The point of a curve to which `p` belongs, for a node that was at `anchor` at first.
+    pub(super) fn onto_curve(&self, curve: u32, anchor: Point, p: Point) -> Point {
+        let piece = &self.curves[curve as usize];
+        match piece.constant {
+            Some(direction) => anchor + direction * direction.dot(p - anchor),
+            None => piece.closest(p),
+        }
+    }
+}
+
+/// The least and the greatest of some patches.
+fn pair(patches: impl Iterator<Item = u32>) -> [u32; 2] {
+    patches.fold([u32::MAX, 0], |[low, high], p| [low.min(p), high.max(p)])
+}
+
+/// The number of each member's set; sets are numbered in the order of their least members.
+fn numbered(sets: &mut Sets, members: usize) -> Vec<u32> {
+    let roots: Vec<u32> = sets.roots().collect();
+    let place = |root: u32| roots.partition_point(|&r| r < root) as u32;
+    (0..members as u32).map(|m| place(sets.root(m).0)).collect()
+}
+
+fn triangles(surface: &impl Faces, patch_of_face: &[u32]) -> (Vec<[Point; 3]>, Vec<u32>) {
+    let (mut all, mut patch_of_triangle) = (Vec::new(), Vec::new());
+    let mut local = Vec::new();
+    for (f, &patch) in patch_of_face.iter().enumerate() {
+        let points: Vec<Point> = surface.nodes_of(f).iter().map(|n| surface.positions()[n.index()]).collect();
+        local.clear();
+        triangulate(&points, &mut local);
+        all.extend(local.iter().map(|t| t.map(|k| points[k as usize])));
+        patch_of_triangle.resize(all.len(), patch);
+    }
+    (all, patch_of_triangle)
+}
+
+fn unit_normal(t: &[Point; 3]) -> Point {
+    (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero()
+}

@@ -1,0 +1,135 @@
+//! One round over nodes: each is moved to where the energy around it is lower, if that keeps what is to be kept.
+
+use rayon::prelude::*;
+
+use super::energy::{Expansion, Weights};
+use super::problem::Problem;
+use super::star::Star;
+use super::symmetric::Symmetric;
+use crate::geometry::Point;
+use crate::{Cancelled, Monitor};
+
+/// Nodes that a thread takes at least.
+pub(super) const LANE: usize = 64;
+
+/// Nodes between two questions whether to stop.
+const BATCH: usize = 4096;
+
+/// A step at most this share of the node's mean edge.
+const LONGEST: f64 = 0.5;
+
+/// A step below this share of the node's mean edge wakes no neighbours.
+const ASLEEP: f64 = 2e-3;
+
+/// How often a step is halved before the node stays.
+const HALVINGS: usize = 6;
+
+/// What a round lowers and what it keeps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rules {
+    pub(super) weights: Weights,
+    /// Of chi, in units of the cells' volumes.
+    pub(super) eps: f64,
+    /// The least scaled Jacobian around a node may fall, but not below this; any, where there is none. Positive cells
+    /// stay positive where there is one.
+    pub(super) floor: Option<f64>,
+}
+
+/// Moves the nodes that are `awake`, colour by colour. A node falls asleep when it hardly moves, and wakes its
+/// neighbours among the `allowed` when it does. The number of nodes that moved.
+pub(super) fn sweep(
+    problem: &mut Problem,
+    rules: Rules,
+    allowed: &[bool],
+    awake: &mut [bool],
+    monitor: &dyn Monitor,
+) -> Result<usize, Cancelled> {
+    let mut moved = 0;
+    for colour in 0..problem.colours.len() {
+        let nodes: Vec<u32> =
+            problem.colours[colour].iter().copied().filter(|&n| awake[n as usize]).collect();
+        for batch in nodes.chunks(BATCH) {
+            if monitor.cancelled() {
+                return Err(Cancelled);
+            }
+            let found: Vec<Option<Step>> = batch
+                .par_iter()
+                .with_min_len(LANE)
+                .map_init(Star::default, |star, &node| relaxed(problem, node, rules, star))
+                .collect();
+            for (&node, step) in batch.iter().zip(found) {
+                awake[node as usize] = false;
+                let Some(step) = step else { continue };
+                problem.points[node as usize] = step.to;
+                if step.far {
+                    moved += 1;
+                    wake(problem, node, allowed, awake);
+                }
+            }
+        }
+    }
+    Ok(moved)
+}
+
+/// Wakes the node and those that share a cell with it.
+fn wake(problem: &Problem, node: u32, allowed: &[bool], awake: &mut [bool]) {
+    for &(cell, _) in problem.star(node) {
+        for other in problem.cells[cell as usize] {
+            if allowed.get(other as usize) == Some(&true) {
+                awake[other as usize] = true;
+            }
+        }
+    }
+}
+
+/// Where a node goes, and whether that is far enough to matter to its neighbours.
+struct Step {
+    to: Point,
+    far: bool,
+}
+
+/// A place for the node with less energy, found by Newton's step and its halves; `None` to stay.
+fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Option<Step> {
+    star.gather(problem, node, rules.eps);
+    let from = problem.points[node as usize];
+    let here = star.expand(from, rules.weights);
+    if !here.value.is_finite() {
+        return None;
+    }
+    let (id, anchor) = (problem.nodes[node as usize], problem.anchors[node as usize]);
+    let step = newton(here, problem.constraints.tangent(id, from), star.size)?;
+    let kept = rules.floor.map(|floor| star.worst(from).min(floor));
+    let mut share = 1.0;
+    for _ in 0..HALVINGS {
+        let to = problem.constraints.project(id, anchor, from + step * share);
+        if star.energy(to, rules.weights, here.value) < here.value
+            && kept.is_none_or(|kept| star.worst(to) >= kept && star.stays_positive(to))
+        {
+            return Some(Step { to, far: to.distance(from) > ASLEEP * star.size });
+        }
+        share *= 0.5;
+    }
+    None
+}
+
+/// Newton's step within the tangent space; where the energy is not convex, with as much of the identity added as
+/// makes it so.
+fn newton(energy: Expansion, tangent: Symmetric, size: f64) -> Option<Point> {
+    let gradient = tangent.times(energy.gradient);
+    let within = energy.hessian.between(tangent);
+    let scale = energy.hessian.diagonal.abs().element_sum();
+    // Directions out of the tangent space get the identity, and the gradient has no part in them.
+    let outside = (Symmetric::IDENTITY + tangent * -1.0) * scale;
+    let mut added = 0.0;
+    for _ in 0..8 {
+        let matrix = within + outside + Symmetric::IDENTITY * (added * scale);
+        if let Some(step) = matrix.solve(-gradient) {
+            let length = step.length();
+            let longest = LONGEST * size;
+            return (length > 0.0 && length.is_finite())
+                .then(|| if length > longest { step * (longest / length) } else { step });
+        }
+        added = if added == 0.0 { 1e-3 } else { added * 4.0 };
+    }
+    None
+}
