@@ -28,10 +28,10 @@ fn refine(mesh: &StageMesh, wanted: Vec<bool>, method: Method) -> (Stage, Vec<bo
         for hex in more {
             let hex = hex as usize;
             let family = |h: usize| (mesh.level[h], mesh.element[h] / 8);
-            for other in 0..mesh.hexes.len() {
+            for (other, refined) in refined.iter_mut().enumerate() {
                 let is_sibling =
                     mesh.octant[hex] < 8 && mesh.octant[other] < 8 && family(other) == family(hex);
-                refined[other] |= other == hex || (is_sibling && method != Method::Three);
+                *refined |= other == hex || (is_sibling && method != Method::Three);
             }
         }
     }
