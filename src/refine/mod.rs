@@ -20,6 +20,7 @@
 mod conform;
 mod demand;
 mod estimate;
+pub mod hex;
 mod options;
 mod quad;
 

@@ -4,6 +4,7 @@
 mod cli;
 mod formats;
 mod hashes;
+mod hexes;
 mod obj;
 mod optimize;
 mod refine;

@@ -1,0 +1,145 @@
+//! The interface: where refined hexes and coarse ones meet.
+
+use rayon::prelude::*;
+
+use super::skeleton::{FACES_AT, Stars, one_way};
+use crate::mesh::NodeId;
+
+/// The nodes that refined and coarse hexes share, and the hexes there.
+pub(super) struct Interface<'a> {
+    pub(super) hexes: &'a [[NodeId; 8]],
+    pub(super) refined: &'a [bool],
+    /// The nodes, ascending.
+    pub(super) nodes: Vec<NodeId>,
+    /// Place of each node of the mesh in `nodes`, or [`NONE`].
+    place: Vec<u32>,
+    /// The hexes that have such a node, ascending.
+    pub(super) shell: Vec<u32>,
+    /// Their uses of the nodes.
+    pub(super) stars: Stars,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl<'a> Interface<'a> {
+    /// The interface of the set `refined` in a mesh of `node_count` nodes.
+    pub(super) fn new(node_count: usize, hexes: &'a [[NodeId; 8]], refined: &'a [bool]) -> Self {
+        let mut sides = vec![0u8; node_count + 1];
+        for (hex, &refined) in hexes.iter().zip(refined) {
+            for node in hex {
+                sides[node.index()] |= 1 << u8::from(refined);
+            }
+        }
+        let mut place = vec![NONE; node_count];
+        let mut nodes = Vec::new();
+        for node in (0..node_count).filter(|&node| sides[node] == 3) {
+            place[node] = nodes.len() as u32;
+            nodes.push(NodeId::new(node));
+        }
+        let is_shell = |&hex: &u32| hexes[hex as usize].iter().any(|n| place[n.index()] != NONE);
+        let shell: Vec<u32> = (0..hexes.len() as u32).into_par_iter().filter(is_shell).collect();
+        // Nodes that are none of the interface share a last star, which is never asked for.
+        let last = NodeId::new(nodes.len());
+        let at = |node: NodeId| if place[node.index()] == NONE { last } else { NodeId(place[node.index()]) };
+        let stars = Stars::new(nodes.len() + 1, shell.iter().map(|&hex| hexes[hex as usize].map(at)));
+        Self { hexes, refined, nodes, place, shell, stars }
+    }
+
+    /// The place of a node of the mesh in `nodes`, if it is there.
+    pub(super) fn place(&self, node: NodeId) -> Option<usize> {
+        let place = self.place[node.index()];
+        (place != NONE).then_some(place as usize)
+    }
+
+    /// The faces between refined and coarse hexes, in the order of their least nodes.
+    pub(super) fn faces(&self) -> Vec<InterfaceFace> {
+        let at = |star: &mut Star, place: usize| {
+            star.load(self, place);
+            let least = |face: &&StarFace| face.rest.iter().all(|&n| n > star.node);
+            let sides = star.faces.iter().filter(least).filter_map(|face| {
+                let (a, b) = (face.first, face.second?);
+                let refined = star.is_refined(a.0);
+                let (fine, coarse) = if refined { (a, b) } else { (b, a) };
+                (refined != star.is_refined(b.0)).then(|| InterfaceFace {
+                    refined: star.hexes[fine.0].0,
+                    refined_face: fine.1,
+                    coarse: star.hexes[coarse.0].0,
+                    coarse_face: coarse.1,
+                })
+            });
+            sides.collect::<Vec<_>>()
+        };
+        let places = (0..self.nodes.len()).into_par_iter();
+        places.map_init(Star::default, at).flatten_iter().collect()
+    }
+}
+
+/// A face between a refined and a coarse hex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct InterfaceFace {
+    /// The refined hex.
+    pub(super) refined: u32,
+    /// Which of its faces it is.
+    pub(super) refined_face: u8,
+    /// The coarse hex.
+    pub(super) coarse: u32,
+    /// Which of its faces it is.
+    pub(super) coarse_face: u8,
+}
+
+/// The hexes around a node and the faces between them. Its buffers serve one node after another.
+#[derive(Default)]
+pub(super) struct Star {
+    pub(super) node: NodeId,
+    /// Each hex, the node's corner there, and whether the hex is refined.
+    pub(super) hexes: Vec<(u32, u8, bool)>,
+    pub(super) faces: Vec<StarFace>,
+}
+
+/// A face at a star's node.
+pub(super) struct StarFace {
+    /// The other nodes, from the lesser neighbour of the star's node around the face to the greater.
+    pub(super) rest: [NodeId; 3],
+    /// The place in the star of the first hex that has it, and which of its faces it is.
+    pub(super) first: (usize, u8),
+    /// The same of the second; none on the boundary.
+    pub(super) second: Option<(usize, u8)>,
+}
+
+impl StarFace {
+    /// Does the face have the edge from the star's node to `end`?
+    pub(super) fn has_edge(&self, end: NodeId) -> bool {
+        self.rest[0] == end || self.rest[2] == end
+    }
+}
+
+impl Star {
+    /// Takes the star of node `place` of the interface.
+    pub(super) fn load(&mut self, interface: &Interface, place: usize) {
+        self.node = interface.nodes[place];
+        self.hexes.clear();
+        self.faces.clear();
+        for (k, (in_shell, corner)) in interface.stars.at(place).enumerate() {
+            let hex = interface.shell[in_shell];
+            self.hexes.push((hex, corner as u8, interface.refined[hex as usize]));
+            let nodes = &interface.hexes[hex as usize];
+            for (face, following) in FACES_AT[corner] {
+                let rest = one_way(following.map(|k| nodes[usize::from(k)]));
+                let open = |f: &&mut StarFace| f.rest == rest && f.second.is_none();
+                match self.faces.iter_mut().find(open) {
+                    Some(known) => known.second = Some((k, face)),
+                    None => self.faces.push(StarFace { rest, first: (k, face), second: None }),
+                }
+            }
+        }
+    }
+
+    pub(super) fn is_refined(&self, hex: usize) -> bool {
+        self.hexes[hex].2
+    }
+
+    /// Is the face between a refined and a coarse hex?
+    pub(super) fn is_interface(&self, face: &StarFace) -> bool {
+        face.second.is_some_and(|(second, _)| self.is_refined(face.first.0) != self.is_refined(second))
+    }
+}

@@ -1,0 +1,201 @@
+//! Pillowing: a layer of one hex at each face of the interface separates the refined hexes from the coarse ones
+//! (Ebeida et al., section 3.2).
+//!
+//! ```text
+//!   R | R | R          R | R | R      refined copies of the nodes
+//!   --*---*--   is     --*---*--
+//!   C | C | C            |   |        the layer
+//!                      --*---*--
+//!                      C | C | C      coarse copies
+//! ```
+//!
+//! 1. Find the pinched edges and decide which side each joins (`pinch`).
+//! 2. Around each node of the interface find the regions (`regions`). One of them keeps the node, every other
+//!    gets a copy, moved into the region (`shift`).
+//! 3. Give the hexes their copies, and make a hex at each face of the interface.
+//!
+//! **Departure from the paper.** It shifts each node by half its shortest edge along the mean normal of the faces,
+//! which inverts hexes at concave corners; here it is [`THICKNESS`] of the shortest edge, towards the region.
+
+use rayon::prelude::*;
+
+use super::blocks::{BLOCK, offsets};
+use super::interface::{Interface, InterfaceFace, Star};
+use super::pinch::{Pinches, add_coarse};
+use super::regions::Regions;
+use super::shift::{Ridges, Shifts};
+use super::stage::StageError;
+use crate::geometry::Point;
+use crate::mesh::NodeId;
+use crate::mesh::numbering::hex::FACES;
+use crate::{Cancelled, Monitor, Stage};
+
+/// The stage that this file reports.
+const PILLOW: Stage = Stage("pillow");
+
+/// How far a copy is moved, as a part of its node's shortest edge.
+pub(super) const THICKNESS: f64 = 0.35;
+
+/// A pillowed mesh. All of its hexes but the layer's keep their places.
+pub(super) struct Pillow {
+    /// The old nodes, then the copies.
+    pub(super) positions: Vec<Point>,
+    /// The hexes, with their copies of the nodes.
+    pub(super) hexes: Vec<[NodeId; 8]>,
+    /// The layer: a hex at each face of the interface.
+    pub(super) layer: Vec<LayerHex>,
+    /// Number of pinched edges.
+    pub(super) pinched_edges: usize,
+}
+
+/// A hex of the layer.
+#[derive(Clone, Copy)]
+pub(super) struct LayerHex {
+    /// Its nodes; below (corners 0 to 3) the coarse hex, above (4 to 7) the refined one.
+    pub(super) hex: [NodeId; 8],
+    /// The face at which it stands.
+    pub(super) face: InterfaceFace,
+}
+
+/// The corners of a face of the refined hex, as corners 4 to 7 of the layer hex upon it.
+pub(super) fn above(refined_face: u8) -> [u8; 4] {
+    let [a, b, c, d] = FACES[usize::from(refined_face)];
+    [a, d, c, b]
+}
+
+/// Separates the two sides of the interface.
+///
+/// # Errors
+/// The coarse hexes that must be refined too where that is impossible, or if the monitor stops it.
+pub(super) fn pillow(
+    positions: &[Point],
+    interface: &Interface,
+    monitor: &dyn Monitor,
+) -> Result<Pillow, StageError> {
+    monitor.checkpoint(PILLOW, 0.0)?;
+    let mut pinches = Pinches::find(interface);
+    let more = pinches.resolve(interface);
+    if !more.is_empty() {
+        return Err(StageError::Conflict(more));
+    }
+    monitor.checkpoint(PILLOW, 0.4)?;
+    let ridges = Ridges::new(positions, interface, &pinches);
+    let copies = Copies::new(positions, interface, &pinches, &ridges, monitor)?;
+    monitor.checkpoint(PILLOW, 0.8)?;
+    let hexes = copies.applied(interface);
+    let layer = interface.faces().into_iter().map(|face| layer_hex(interface, &hexes, face)).collect();
+    let mut all = Vec::with_capacity(positions.len() + copies.points.len());
+    all.extend_from_slice(positions);
+    all.extend_from_slice(&copies.points);
+    Ok(Pillow { positions: all, hexes, layer, pinched_edges: pinches.len() })
+}
+
+/// The hex at a face of the interface.
+fn layer_hex(interface: &Interface, hexes: &[[NodeId; 8]], face: InterfaceFace) -> LayerHex {
+    let (refined, coarse) = (face.refined as usize, face.coarse as usize);
+    let corners = above(face.refined_face);
+    let mut hex = [NodeId(0); 8];
+    for (k, corner) in corners.into_iter().enumerate() {
+        let old = interface.hexes[refined][usize::from(corner)];
+        let there = interface.hexes[coarse].iter().position(|&n| n == old).expect("both hexes have the face");
+        hex[k] = hexes[coarse][there];
+        hex[k + 4] = hexes[refined][usize::from(corner)];
+    }
+    LayerHex { hex, face }
+}
+
+/// The copies of the nodes of the interface.
+struct Copies {
+    /// For each use of an interface node which copy its hex gets: 0 is the node itself.
+    of_use: Vec<u32>,
+    /// The first copy of each node, counted from the first of all.
+    first: Vec<u32>,
+    /// Where the copies are.
+    points: Vec<Point>,
+    /// The first of all copies.
+    first_node: NodeId,
+}
+
+/// What a block of nodes has of it.
+#[derive(Default)]
+struct Block {
+    of_use: Vec<u32>,
+    counts: Vec<u32>,
+    points: Vec<Point>,
+    more: Vec<u32>,
+}
+
+impl Copies {
+    fn new(
+        positions: &[Point],
+        interface: &Interface,
+        pinches: &Pinches,
+        ridges: &Ridges,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, StageError> {
+        let count = interface.nodes.len();
+        let block = |b: usize| {
+            if monitor.cancelled() {
+                return Err(Cancelled);
+            }
+            let places = b * BLOCK..((b + 1) * BLOCK).min(count);
+            Ok(Self::block(positions, interface, pinches, ridges, places))
+        };
+        let blocks: Vec<Block> =
+            (0..count.div_ceil(BLOCK)).into_par_iter().map(block).collect::<Result<_, _>>()?;
+        let mut more = blocks.iter().flat_map(|block| block.more.iter().copied()).collect::<Vec<_>>();
+        if !more.is_empty() {
+            more.sort_unstable();
+            more.dedup();
+            return Err(StageError::Conflict(more));
+        }
+        let counts: Vec<u32> = blocks.iter().flat_map(|block| block.counts.iter().copied()).collect();
+        Ok(Self {
+            first_node: NodeId::new(positions.len()),
+            of_use: blocks.iter().flat_map(|block| block.of_use.iter().copied()).collect(),
+            first: offsets(counts.into_iter()),
+            points: blocks.iter().flat_map(|block| block.points.iter().copied()).collect(),
+        })
+    }
+
+    fn block(
+        positions: &[Point],
+        interface: &Interface,
+        pinches: &Pinches,
+        ridges: &Ridges,
+        places: std::ops::Range<usize>,
+    ) -> Block {
+        let (mut star, mut regions, mut shifts) = (Star::default(), Regions::default(), Shifts::default());
+        let mut block = Block::default();
+        for place in places {
+            star.load(interface, place);
+            regions.load(interface, &star, pinches, place);
+            shifts.load(positions, interface, &star, &regions);
+            shifts.choose_keepers(&regions, ridges.staying_side(place));
+            if !regions.are_trees() || shifts.is_stuck() {
+                add_coarse(&star, &mut block.more, |_| true);
+            }
+            block.of_use.extend(regions.of_hex.iter().map(|&region| shifts.copy(region as usize)));
+            let before = block.points.len();
+            block.points.extend(shifts.points());
+            block.counts.push((block.points.len() - before) as u32);
+        }
+        block
+    }
+
+    /// The hexes with their copies.
+    fn applied(&self, interface: &Interface) -> Vec<[NodeId; 8]> {
+        let mut hexes = interface.hexes.to_vec();
+        let first_copy = self.first_node.0;
+        for place in 0..interface.nodes.len() {
+            let copies = &self.of_use[interface.stars.range(place)];
+            for ((in_shell, corner), &copy) in interface.stars.at(place).zip(copies) {
+                if copy > 0 {
+                    let hex = &mut hexes[interface.shell[in_shell] as usize];
+                    hex[corner] = NodeId(first_copy + self.first[place] + copy - 1);
+                }
+            }
+        }
+        hexes
+    }
+}

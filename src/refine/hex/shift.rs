@@ -1,0 +1,331 @@
+//! Which region keeps a node of the interface, and where the copies of the others go.
+//!
+//! A copy moves by [`THICKNESS`] of the node's shortest edge: towards the mean of the region's hexes within the
+//! domain, of its boundary faces on a smooth boundary, along the ridge on a ridge of the boundary. So copies stay on
+//! the boundary, and on its ridges. A region that owns two ridges at the node, or boundary faces on both
+//! sides of a ridge that is not its own, cannot move.
+//!
+//! One region keeps the node. In this order it is one
+//! 1. that the outside joins at a pinched edge,
+//! 2. of the side that stays along a ridge (below),
+//! 3. that owns a boundary face,
+//! 4. that cannot move,
+//! 5. with the most neighbours,
+//! 6. of refined hexes.
+//!
+//! Where the interface runs along a ridge of the boundary, one of the two sides must leave the ridge, and it must be
+//! the same one all along: else a face of the layer would cut the ridge off. If both sides can, it is the one that
+//! leaves the interface more steeply, since the other may slide along the interface's own plane.
+
+use rayon::prelude::*;
+
+use super::interface::{Interface, Star, StarFace};
+use super::pillow::THICKNESS;
+use super::pinch::Pinches;
+use super::regions::Regions;
+use super::skeleton::NEIGHBOURS;
+use crate::geometry::Point;
+use crate::mesh::NodeId;
+use crate::mesh::numbering::hex::FACES;
+use crate::mesh::topology::Sets;
+
+/// The cosine of the angle between boundary faces beyond which their edge is a ridge: 30 degrees.
+const RIDGE: f64 = 0.866;
+
+/// The least sine, as a cosine to the normals, of a ridge's direction to the faces beside it.
+const ALONG: f64 = 0.5;
+
+/// Where the regions of a node can go. Its buffers serve one node after another.
+#[derive(Default)]
+pub(super) struct Shifts {
+    at: Point,
+    /// How far copies move.
+    distance: f64,
+    bounds: Vec<Bound>,
+    regions: Vec<Shift>,
+    /// Edges of the interface along ridges, by their other ends.
+    ridges: Vec<NodeId>,
+}
+
+/// A boundary face at the node.
+struct Bound {
+    region: u32,
+    normal: Point,
+    center: Point,
+    ends: [NodeId; 2],
+}
+
+/// What a region can do.
+#[derive(Clone, Copy, Default)]
+struct Shift {
+    is_on_boundary: bool,
+    /// Which way it moves, if it can; of length 1.
+    direction: Option<Point>,
+    keeps: bool,
+    /// 0 if it keeps the node, else its copy's number among those of the node, from 1.
+    copy: u32,
+}
+
+impl Shifts {
+    /// Takes the regions of a star.
+    pub(super) fn load(
+        &mut self,
+        positions: &[Point],
+        interface: &Interface,
+        star: &Star,
+        regions: &Regions,
+    ) {
+        let at = |n: NodeId| positions[n.index()];
+        self.at = at(star.node);
+        self.regions.clear();
+        self.regions.resize(regions.all.len(), Shift::default());
+        self.find_bounds(positions, interface, star, regions);
+        self.ridges.clear();
+        let mut shortest = f64::INFINITY;
+        for &(hex, corner, _) in &star.hexes {
+            let nodes = &interface.hexes[hex as usize];
+            for k in NEIGHBOURS[usize::from(corner)] {
+                shortest = shortest.min(at(nodes[usize::from(k)]).distance_squared(self.at));
+            }
+        }
+        self.distance = THICKNESS * shortest.sqrt();
+        for region in 0..regions.all.len() {
+            let is_on_boundary = self.bounds.iter().any(|bound| bound.region == region as u32);
+            let towards = if is_on_boundary {
+                self.along_boundary(positions, region as u32)
+            } else {
+                Some(mean_center(positions, interface, star, regions, region as u32) - self.at)
+            };
+            let direction = towards.and_then(Point::try_normalize);
+            self.regions[region] = Shift { is_on_boundary, direction, ..Shift::default() };
+        }
+        self.find_ridges(regions);
+    }
+
+    fn find_bounds(&mut self, positions: &[Point], interface: &Interface, star: &Star, regions: &Regions) {
+        self.bounds.clear();
+        for face in star.faces.iter().filter(|face| face.second.is_none()) {
+            let (hex, side) = face.first;
+            let nodes = &interface.hexes[star.hexes[hex].0 as usize];
+            let [a, b, c, d] = FACES[usize::from(side)].map(|k| positions[nodes[usize::from(k)].index()]);
+            self.bounds.push(Bound {
+                region: regions.of_hex[hex],
+                normal: (c - a).cross(d - b).normalize_or_zero(),
+                center: ((a + c) + (b + d)) * 0.25,
+                ends: [face.rest[0], face.rest[2]],
+            });
+        }
+    }
+
+    /// Which way a region that owns boundary faces moves, if it can.
+    fn along_boundary(&self, positions: &[Point], region: u32) -> Option<Point> {
+        let own = || self.bounds.iter().filter(move |bound| bound.region == region);
+        let first = own().next()?;
+        if own().all(|bound| bound.normal.dot(first.normal) >= RIDGE) {
+            let (sum, count) = own().fold((Point::ZERO, 0.0), |(s, n), bound| (s + bound.center, n + 1.0));
+            return Some(sum / count - self.at);
+        }
+        let mut ends = self.ridge_pairs().filter(|(a, b, _)| a.region == region && b.region == region);
+        let (_, _, end) = ends.next()?;
+        let direction = positions[end.index()] - self.at;
+        let unit = direction.try_normalize()?;
+        let is_alone = ends.next().is_none();
+        (is_alone && own().all(|bound| bound.normal.dot(unit).abs() < ALONG)).then_some(direction)
+    }
+
+    /// Pairs of boundary faces with a ridge between them, and the ridge's other end.
+    fn ridge_pairs(&self) -> impl Iterator<Item = (&Bound, &Bound, NodeId)> {
+        let pairs =
+            self.bounds.iter().enumerate().flat_map(|(k, a)| self.bounds[..k].iter().map(move |b| (a, b)));
+        pairs.filter(|(a, b)| a.normal.dot(b.normal) < RIDGE).filter_map(|(a, b)| {
+            let end = a.ends.into_iter().find(|end| b.ends.contains(end))?;
+            Some((a, b, end))
+        })
+    }
+
+    /// Finds the ridges whose faces belong to regions of different sides.
+    fn find_ridges(&mut self, regions: &Regions) {
+        let is_refined = |bound: &Bound| regions.all[bound.region as usize].is_refined;
+        let between = self.ridge_pairs().filter(|(a, b, _)| is_refined(a) != is_refined(b));
+        let ridges: Vec<NodeId> = between.map(|(_, _, end)| end).collect();
+        self.ridges = ridges;
+    }
+
+    /// How steeply the regions of a side leave the interface: the least sine of their angles to it.
+    fn steepness(
+        &self,
+        positions: &[Point],
+        interface: &Interface,
+        star: &Star,
+        regions: &Regions,
+        refined: bool,
+    ) -> f64 {
+        let outward = interface_normal(positions, interface, star) * if refined { -1.0 } else { 1.0 };
+        let of_side =
+            regions.all.iter().zip(&self.regions).filter(|(region, _)| region.is_refined == refined);
+        of_side.filter_map(|(_, shift)| shift.direction).map(|d| d.dot(outward)).fold(1.0, f64::min)
+    }
+
+    /// Must regions of a side keep the node, because they cannot move or the outside joins them?
+    fn must_stay(&self, regions: &Regions, refined: bool) -> bool {
+        let of_side =
+            regions.all.iter().zip(&self.regions).filter(|(region, _)| region.is_refined == refined);
+        of_side.into_iter().any(|(region, shift)| region.is_forced || shift.direction.is_none())
+    }
+
+    /// Chooses the region that keeps the node, one for each part of the star.
+    pub(super) fn choose_keepers(&mut self, regions: &Regions, staying_side: Option<bool>) {
+        for part in 0..regions.all.len() as u32 {
+            let of_part = (0..regions.all.len()).filter(|&k| regions.all[k].part == part);
+            let keeper = of_part.max_by_key(|&k| {
+                let (region, shift) = (&regions.all[k], &self.regions[k]);
+                (
+                    region.is_forced,
+                    staying_side == Some(region.is_refined),
+                    shift.is_on_boundary,
+                    shift.direction.is_none(),
+                    region.degree,
+                    region.is_refined,
+                    std::cmp::Reverse(k),
+                )
+            });
+            if let Some(keeper) = keeper {
+                self.regions[keeper].keeps = true;
+            }
+        }
+        let mut copies = 0;
+        for shift in self.regions.iter_mut().filter(|shift| !shift.keeps) {
+            copies += 1;
+            shift.copy = copies;
+        }
+    }
+
+    /// Is there a region that must move and cannot?
+    pub(super) fn is_stuck(&self) -> bool {
+        self.regions.iter().any(|shift| !shift.keeps && shift.direction.is_none())
+    }
+
+    /// The number of a region's copy of the node, from 1; 0 is the node itself.
+    pub(super) fn copy(&self, region: usize) -> u32 {
+        self.regions[region].copy
+    }
+
+    /// Where the copies are, in order.
+    pub(super) fn points(&self) -> impl Iterator<Item = Point> + '_ {
+        let moved = self.regions.iter().filter(|shift| !shift.keeps);
+        moved.map(|shift| self.at + shift.direction.unwrap_or(Point::ZERO) * self.distance)
+    }
+}
+
+/// The mean normal of the interface at a node, towards the coarse side; of length 1 or 0.
+fn interface_normal(positions: &[Point], interface: &Interface, star: &Star) -> Point {
+    let normal = |face: &StarFace| {
+        let second = face.second.filter(|second| star.is_refined(second.0));
+        let (hex, side) = second.unwrap_or(face.first);
+        let nodes = &interface.hexes[star.hexes[hex].0 as usize];
+        let [a, b, c, d] = FACES[usize::from(side)].map(|k| positions[nodes[usize::from(k)].index()]);
+        (c - a).cross(d - b).normalize_or_zero()
+    };
+    let faces = star.faces.iter().filter(|face| star.is_interface(face));
+    faces.map(normal).sum::<Point>().normalize_or_zero()
+}
+
+/// The mean of the centers of a region's hexes.
+fn mean_center(
+    positions: &[Point],
+    interface: &Interface,
+    star: &Star,
+    regions: &Regions,
+    region: u32,
+) -> Point {
+    let (mut sum, mut count) = (Point::ZERO, 0.0);
+    for (&(hex, ..), _) in star.hexes.iter().zip(&regions.of_hex).filter(|(_, r)| **r == region) {
+        sum += interface.hexes[hex as usize].iter().map(|n| positions[n.index()]).sum::<Point>() / 8.0;
+        count += 1.0;
+    }
+    sum / count
+}
+
+/// Where the interface runs along ridges of the boundary, and which side stays on them.
+pub(super) struct Ridges {
+    staying: Vec<Option<bool>>,
+}
+
+/// What one node says of it.
+struct AtNode {
+    place: usize,
+    /// The ridges' other ends, by place.
+    others: Vec<usize>,
+    coarse_must_stay: bool,
+    refined_must_stay: bool,
+    /// How much more steeply the refined side leaves the interface than the coarse one.
+    refined_is_steeper: f64,
+}
+
+/// What the nodes of a run of ridges say together.
+#[derive(Clone, Copy, Default)]
+struct Verdict {
+    coarse_must_stay: bool,
+    refined_must_stay: bool,
+    refined_is_steeper: f64,
+}
+
+impl Verdict {
+    fn refined_stays(self) -> bool {
+        if self.coarse_must_stay != self.refined_must_stay {
+            return self.refined_must_stay;
+        }
+        self.refined_is_steeper <= 1e-6
+    }
+}
+
+impl Ridges {
+    /// Decides for each connected run of ridges which side stays.
+    pub(super) fn new(positions: &[Point], interface: &Interface, pinches: &Pinches) -> Self {
+        let count = interface.nodes.len();
+        let buffers = || (Star::default(), Regions::default(), Shifts::default());
+        let at = |(star, regions, shifts): &mut (Star, Regions, Shifts), place: usize| {
+            star.load(interface, place);
+            // Only nodes with boundary faces of both sides can lie on a ridge between them.
+            if star.faces.iter().filter(|face| face.second.is_none()).count() < 2 {
+                return None;
+            }
+            regions.load(interface, star, pinches, place);
+            shifts.load(positions, interface, star, regions);
+            let others: Vec<usize> = shifts.ridges.iter().filter_map(|&end| interface.place(end)).collect();
+            let steepness = |refined| shifts.steepness(positions, interface, star, regions, refined);
+            (!others.is_empty()).then(|| AtNode {
+                place,
+                others,
+                coarse_must_stay: shifts.must_stay(regions, false),
+                refined_must_stay: shifts.must_stay(regions, true),
+                refined_is_steeper: steepness(true) - steepness(false),
+            })
+        };
+        let found: Vec<Option<AtNode>> = (0..count).into_par_iter().map_init(buffers, at).collect();
+        let mut runs = Sets::new(count);
+        for node in found.iter().flatten() {
+            for &other in &node.others {
+                runs.join(node.place as u32, other as u32, false);
+            }
+        }
+        let mut verdicts = vec![Verdict::default(); count];
+        for node in found.iter().flatten() {
+            let verdict = &mut verdicts[runs.root(node.place as u32).0 as usize];
+            verdict.coarse_must_stay |= node.coarse_must_stay;
+            verdict.refined_must_stay |= node.refined_must_stay;
+            verdict.refined_is_steeper += node.refined_is_steeper;
+        }
+        let mut staying = vec![None; count];
+        for node in found.iter().flatten() {
+            let verdict = verdicts[runs.root(node.place as u32).0 as usize];
+            staying[node.place] = Some(verdict.refined_stays());
+        }
+        Self { staying }
+    }
+
+    /// The side that stays at node `place` of the interface, if it is on such a ridge: true for the refined side.
+    pub(super) fn staying_side(&self, place: usize) -> Option<bool> {
+        self.staying[place]
+    }
+}

@@ -1,0 +1,216 @@
+//! The edges and faces of a set of hexes, numbered without hashing.
+//!
+//! An edge is kept at its lesser node, a face at its least, in short lists; an edge or face is found by a
+//! walk over the list of its node. Numbers follow the nodes, and at a node the order of the hexes, so they
+//! are the same for any number of threads.
+
+use rayon::prelude::*;
+
+use super::blocks::BLOCK;
+use crate::mesh::NodeId;
+use crate::mesh::numbering::hex::{CORNERS, FACES};
+
+/// The neighbours of each corner along x, y and z.
+pub(super) const NEIGHBOURS: [[u8; 3]; 8] = {
+    let mut neighbours = [[0; 3]; 8];
+    let mut corner = 0;
+    while corner < 8 {
+        let mut other = 0;
+        while other < 8 {
+            let (mut differing, mut along, mut axis) = (0, 0, 0);
+            while axis < 3 {
+                if CORNERS[corner][axis] != CORNERS[other][axis] {
+                    differing += 1;
+                    along = axis;
+                }
+                axis += 1;
+            }
+            if differing == 1 {
+                neighbours[corner][along] = other as u8;
+            }
+            other += 1;
+        }
+        corner += 1;
+    }
+    neighbours
+};
+
+/// The three faces at each corner: the face's number, then the corners that follow around it.
+pub(super) const FACES_AT: [[(u8, [u8; 3]); 3]; 8] = {
+    let mut faces = [[(0, [0; 3]); 3]; 8];
+    let mut corner = 0;
+    while corner < 8 {
+        let (mut face, mut count) = (0, 0);
+        while face < 6 {
+            let mut k = 0;
+            while k < 4 {
+                if FACES[face][k] as usize == corner {
+                    let following =
+                        [FACES[face][(k + 1) % 4], FACES[face][(k + 2) % 4], FACES[face][(k + 3) % 4]];
+                    faces[corner][count] = (face as u8, following);
+                    count += 1;
+                }
+                k += 1;
+            }
+            face += 1;
+        }
+        corner += 1;
+    }
+    faces
+};
+
+/// The hexes at each node of a set.
+pub(super) struct Stars {
+    start: Vec<u32>,
+    /// Eight times the hex's place in the set, plus the node's corner there.
+    uses: Vec<u32>,
+}
+
+impl Stars {
+    /// The stars of `node_count` nodes among `hexes`.
+    ///
+    /// # Panics
+    /// If there are 2^29 hexes or more.
+    pub(super) fn new(node_count: usize, hexes: impl Iterator<Item = [NodeId; 8]> + Clone) -> Self {
+        let mut start = vec![0u32; node_count + 1];
+        for hex in hexes.clone() {
+            for node in hex {
+                start[node.index() + 1] += 1;
+            }
+        }
+        for node in 0..node_count {
+            start[node + 1] += start[node];
+        }
+        let mut uses = vec![0u32; start[node_count] as usize];
+        assert!(uses.len() <= u32::MAX as usize, "more than 2^29 hexes");
+        let mut next = start.clone();
+        for (hex, nodes) in (0u32..).zip(hexes) {
+            for (corner, node) in (0u32..).zip(nodes) {
+                let place = &mut next[node.index()];
+                uses[*place as usize] = 8 * hex + corner;
+                *place += 1;
+            }
+        }
+        Self { start, uses }
+    }
+
+    /// Where the uses of a node stand among those of all nodes.
+    pub(super) fn range(&self, node: usize) -> std::ops::Range<usize> {
+        self.start[node] as usize..self.start[node + 1] as usize
+    }
+
+    /// The hexes at a node, by their places in the set, and the node's corner in each.
+    pub(super) fn at(&self, node: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        self.uses[self.range(node)].iter().map(|&entry| (entry as usize / 8, entry as usize % 8))
+    }
+}
+
+/// Edges and faces of a set of hexes.
+pub(super) struct Skeleton {
+    edges: Lists<1>,
+    faces: Lists<3>,
+}
+
+impl Skeleton {
+    /// The skeleton of `hexes`, over `node_count` nodes.
+    pub(super) fn new<H>(node_count: usize, hexes: &[H], nodes: impl Fn(&H) -> &[NodeId; 8] + Sync) -> Self
+    where
+        H: Sync,
+    {
+        let nodes_of = &nodes;
+        let stars = Stars::new(node_count, hexes.iter().map(|hex| *nodes_of(hex)));
+        let hexes_at = |node: usize| stars.at(node).map(|(hex, corner)| (nodes_of(&hexes[hex]), corner));
+        let edges = Lists::collect(node_count, |node, found| {
+            for (nodes, corner) in hexes_at(node) {
+                for other in NEIGHBOURS[corner] {
+                    found([nodes[usize::from(other)]]);
+                }
+            }
+        });
+        let faces = Lists::collect(node_count, |node, found| {
+            for (nodes, corner) in hexes_at(node) {
+                for (_, following) in FACES_AT[corner] {
+                    found(one_way(following.map(|k| nodes[usize::from(k)])));
+                }
+            }
+        });
+        Self { edges, faces }
+    }
+
+    /// Number of edges.
+    pub(super) fn edge_count(&self) -> usize {
+        self.edges.rest.len()
+    }
+
+    /// Number of faces.
+    pub(super) fn face_count(&self) -> usize {
+        self.faces.rest.len()
+    }
+
+    /// The number of the edge between `a` and `b`, which some hex must have.
+    pub(super) fn edge(&self, [a, b]: [NodeId; 2]) -> usize {
+        self.edges.find(a.min(b), [a.max(b)])
+    }
+
+    /// The number of a face, given by its nodes in order around it from any of them, either way; some hex
+    /// must have it.
+    pub(super) fn face(&self, nodes: [NodeId; 4]) -> usize {
+        let least = (1..4).fold(0, |least, k| if nodes[k] < nodes[least] { k } else { least });
+        let following = [1, 2, 3].map(|k| nodes[(least + k) % 4]);
+        self.faces.find(nodes[least], one_way(following))
+    }
+}
+
+/// The nodes that follow a face's least one, walked in the direction of the lesser neighbour.
+pub(super) fn one_way([next, opposite, before]: [NodeId; 3]) -> [NodeId; 3] {
+    if next < before { [next, opposite, before] } else { [before, opposite, next] }
+}
+
+/// Sets of `K + 1` nodes, each kept at its least node by the other `K`.
+struct Lists<const K: usize> {
+    start: Vec<u32>,
+    rest: Vec<[NodeId; K]>,
+}
+
+impl<const K: usize> Lists<K> {
+    /// `at(node, found)` calls `found` with the rest of each set that has `node`; those with a lesser node
+    /// are passed over, and so is what was found before.
+    fn collect(node_count: usize, at: impl Fn(usize, &mut dyn FnMut([NodeId; K])) + Sync) -> Self {
+        let blocks: Vec<(Vec<u32>, Vec<[NodeId; K]>)> = (0..node_count.div_ceil(BLOCK))
+            .into_par_iter()
+            .map(|block| {
+                let nodes = block * BLOCK..((block + 1) * BLOCK).min(node_count);
+                let (mut counts, mut rest) = (Vec::with_capacity(nodes.len()), Vec::new());
+                for node in nodes {
+                    let first = rest.len();
+                    at(node, &mut |others: [NodeId; K]| {
+                        if others.iter().all(|other| other.index() > node) && !rest[first..].contains(&others)
+                        {
+                            rest.push(others);
+                        }
+                    });
+                    counts.push((rest.len() - first) as u32);
+                }
+                (counts, rest)
+            })
+            .collect();
+        let mut start = Vec::with_capacity(node_count + 1);
+        let mut rest = Vec::with_capacity(blocks.iter().map(|(_, rest)| rest.len()).sum());
+        let mut end = 0;
+        start.push(end);
+        for (counts, more) in blocks {
+            for count in counts {
+                end += count;
+                start.push(end);
+            }
+            rest.extend_from_slice(&more);
+        }
+        Self { start, rest }
+    }
+
+    fn find(&self, least: NodeId, rest: [NodeId; K]) -> usize {
+        let range = self.start[least.index()] as usize..self.start[least.index() + 1] as usize;
+        let place = self.rest[range.clone()].iter().position(|&other| other == rest);
+        range.start + place.expect("an edge or face of the set")
+    }
+}

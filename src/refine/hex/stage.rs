@@ -1,0 +1,197 @@
+//! One stage of the refinement of a hex mesh: from a conforming mesh and a set of its hexes to the conforming
+//! mesh in which these are divided.
+
+use super::couple::{coupled_middles, middles_of_families};
+use super::divide::Divided;
+use super::interface::Interface;
+use super::layers::layers;
+use super::options::Method;
+use super::pillow::{LayerHex, Pillow, pillow};
+use super::quarters::{Quarter, place_quarters};
+use super::transition::{Transition, Transitions, assemble};
+use crate::Monitor;
+use crate::geometry::Point;
+use crate::mesh::NodeId;
+use crate::template::hex::{SPLIT, THIRDS, THIRTEEN};
+
+/// No child of a family: the hex is an input hex or a transition hex.
+pub const NO_OCTANT: u8 = u8::MAX;
+
+/// No element of the forest: the hex is a transition hex.
+pub const NO_ELEMENT: u32 = u32::MAX;
+
+/// A conforming hex mesh between two stages. All arrays but `positions` have one entry a hex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StageMesh {
+    /// Coordinates of the nodes.
+    pub positions: Vec<Point>,
+    /// The nodes of each hex, in the order of VTK_HEXAHEDRON.
+    pub hexes: Vec<[NodeId; 8]>,
+    /// Which child of its family each hex is: it stands at that corner of its parent, its axes parallel to the
+    /// parent's, so that its local corner `j` divides as many of the parent's axes as `j` differs from it in
+    /// coordinates: none at the parent's corner, one at an edge node, two at a face node, three at the volume
+    /// node. [`NO_OCTANT`] for input hexes and transition hexes.
+    pub octant: Vec<u8>,
+    /// How many times the input was refined to make each hex; a transition hex has the level of the coarse hex
+    /// that it is part of.
+    pub level: Vec<u8>,
+    /// The input hex that each hex is part of.
+    pub root: Vec<u32>,
+    /// The number of each hex among the elements of its level, [`NO_ELEMENT`] for transition hexes.
+    pub element: Vec<u32>,
+}
+
+impl StageMesh {
+    /// The mesh before the first stage: the input's hexes, at level 0.
+    pub fn of_input(positions: Vec<Point>, hexes: Vec<[NodeId; 8]>) -> Self {
+        let count = hexes.len();
+        Self {
+            positions,
+            octant: vec![NO_OCTANT; count],
+            level: vec![0; count],
+            root: (0..count as u32).collect(),
+            element: (0..count as u32).collect(),
+            hexes,
+        }
+    }
+}
+
+/// What a stage returns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stage {
+    /// The mesh: first the hexes that stay, in their order; then the children of the refined ones; then the
+    /// transition hexes. Nodes keep their ids; new ones follow.
+    pub mesh: StageMesh,
+    /// The hex of the mesh before that each hex came from. A transition hex came from the coarse hex whose place
+    /// it takes part of.
+    pub from: Vec<u32>,
+    /// The first transition hex; the others follow to the end.
+    pub first_transition: usize,
+    /// The nodes that the stage made or moved between refined and coarse hexes, ascending: those that may be
+    /// moved to improve the transition hexes.
+    pub layer_nodes: Vec<NodeId>,
+    /// What was done, in numbers.
+    pub report: StageReport,
+}
+
+/// A stage in numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct StageReport {
+    /// Hexes that were divided.
+    pub refined: usize,
+    /// Faces between refined and coarse hexes.
+    pub interface_faces: usize,
+    /// Transition hexes made.
+    pub transition: usize,
+    /// Edges at which the interface touches itself.
+    pub pinched_edges: usize,
+    /// Nodes that a pillow made.
+    pub copies: usize,
+}
+
+/// Why a stage was not done.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StageError {
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] crate::Cancelled),
+    /// The interface cannot be pillowed unless these hexes, with their families, are refined too. Adding them
+    /// and running the stage again always ends.
+    #[error("{} hexes at places where the interface cannot be separated must be refined too", .0.len())]
+    Conflict(Vec<u32>),
+    /// No template of Method I fits these coarse hexes. The forest's closure prevents them.
+    #[error("Method I has no template for {} coarse hexes, hex {} first; refine around them", .0.len(), .0[0])]
+    Forbidden(Vec<u32>),
+    /// The faces between refined and coarse hexes cannot be grouped by four, which 2-refinement needs; hexes of
+    /// the refined set at such faces.
+    #[error(
+        "the faces at {} refined hexes, hex {} first, cannot be grouped two by two; refine whole families, \
+         or use 3-refinement", .0.len(), .0[0]
+    )]
+    NotCouplable(Vec<u32>),
+}
+
+/// Refines the hexes of `mesh` for which `refined` holds. For 2-refinement they are whole families of one
+/// level, or a set whose interface can be grouped two by two.
+///
+/// # Errors
+/// See [`StageError`]; nothing is returned in part.
+///
+/// # Panics
+/// If `refined` is not as long as the mesh's hexes.
+pub fn stage(
+    mesh: &StageMesh,
+    refined: &[bool],
+    method: Method,
+    monitor: &dyn Monitor,
+) -> Result<Stage, StageError> {
+    assert_eq!(refined.len(), mesh.hexes.len(), "one entry a hex");
+    let interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined);
+    match method {
+        Method::One => {
+            let mut positions = mesh.positions.clone();
+            let transitions = layers(&mut positions, &interface, &mesh.octant, monitor)?;
+            Ok(assemble(mesh, (positions, &mesh.hexes), refined, &SPLIT, &transitions, monitor)?)
+        }
+        Method::Two => {
+            let pillow = pillow(&mesh.positions, &interface, monitor)?;
+            let divided = quarters(&pillow, &mesh.octant).map_err(StageError::NotCouplable)?;
+            pillowed_stage(mesh, refined, pillow, divided, monitor)
+        }
+        Method::Three => {
+            let pillow = pillow(&mesh.positions, &interface, monitor)?;
+            let divided = thirteens(&pillow);
+            pillowed_stage(mesh, refined, pillow, divided, monitor)
+        }
+        Method::Auto => {
+            let pillow = pillow(&mesh.positions, &interface, monitor)?;
+            let divided = quarters(&pillow, &mesh.octant).unwrap_or_else(|_| thirteens(&pillow));
+            pillowed_stage(mesh, refined, pillow, divided, monitor)
+        }
+    }
+}
+
+/// The layer's hexes as quarters, grouped by families or, if there are none, in any way that fits; or the refined
+/// hexes at faces that cannot be grouped.
+fn quarters(pillow: &Pillow, octant: &[u8]) -> Result<Vec<Divided>, Vec<u32>> {
+    let layer = &pillow.layer;
+    let place = |middles: Vec<u8>| {
+        let on_top = |(hex, middle): (&LayerHex, u8)| Quarter::on_face(hex.hex, [4, 5, 6, 7], middle);
+        let quarters: Vec<Quarter> = layer.iter().zip(middles).map(on_top).collect();
+        place_quarters(&quarters)
+    };
+    if let Some(divided) = middles_of_families(layer, octant).and_then(place) {
+        return Ok(divided);
+    }
+    let middles = coupled_middles(&pillow.positions, layer)?;
+    place(middles).ok_or_else(|| layer.iter().map(|hex| hex.face.refined).collect())
+}
+
+/// The layer's hexes as 13-hex transitions.
+fn thirteens(pillow: &Pillow) -> Vec<Divided> {
+    let of = |hex: &LayerHex| Divided { hex: hex.hex, template: &THIRTEEN, symmetry: 0 };
+    pillow.layer.iter().map(of).collect()
+}
+
+/// The stage after a pillow whose layer is divided as told; the refined hexes follow the layer's template.
+fn pillowed_stage(
+    mesh: &StageMesh,
+    refined: &[bool],
+    pillow: Pillow,
+    divided: Vec<Divided>,
+    monitor: &dyn Monitor,
+) -> Result<Stage, StageError> {
+    let in_thirds = divided.iter().any(|hex| std::ptr::eq(hex.template, &THIRTEEN));
+    let split = if in_thirds { &THIRDS } else { &SPLIT };
+    let Pillow { positions, hexes, layer, pinched_edges } = pillow;
+    let of_coarse = |(hex, divided): (&LayerHex, Divided)| Transition { from: hex.face.coarse, divided };
+    let transitions = Transitions {
+        interface_faces: layer.len(),
+        divided: layer.iter().zip(divided).map(of_coarse).collect(),
+        pinched_edges,
+        copies: positions.len() - mesh.positions.len(),
+        ..Transitions::default()
+    };
+    Ok(assemble(mesh, (positions, &hexes), refined, split, &transitions, monitor)?)
+}
