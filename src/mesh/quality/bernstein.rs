@@ -175,7 +175,7 @@ impl Part {
         let steeper = |a: usize, b: usize| if steepness[b] > steepness[a] { b } else { a };
         let stride = STRIDES[steeper(steeper(0, 1), 2)];
         let [mut low, mut high] = [*self; 2];
-        for first in (0..27).filter(|c: &usize| (c / stride).is_multiple_of(3)) {
+        for first in (0..27).filter(|c| (c / stride).is_multiple_of(3)) {
             let [a, b, c] = [0, 1, 2].map(|i| self.0[first + i * stride]);
             let (ab, bc) = ((a + b) / 2.0, (b + c) / 2.0);
             let middle = (ab + bc) / 2.0;
