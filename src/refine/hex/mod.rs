@@ -37,6 +37,7 @@
 //! # Ok::<(), hexmill::refine::hex::StageError>(())
 //! ```
 
+mod attempt;
 mod blocks;
 mod couple;
 mod divide;
@@ -45,12 +46,17 @@ mod layers;
 mod options;
 mod pillow;
 mod pinch;
+mod pipeline;
+mod plan;
 mod quarters;
 mod regions;
 mod shift;
 mod skeleton;
 mod stage;
+mod thirds;
 mod transition;
 
-pub use options::{HexOptions, Method, RefinedHexes};
+pub use options::{Added, HexOptions, HexRefineError, Method, RefinedHexes};
+pub use pipeline::refine_hexes;
+pub use plan::HexPlan;
 pub use stage::{NO_ELEMENT, NO_OCTANT, Stage, StageError, StageMesh, StageReport, stage};

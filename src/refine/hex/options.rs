@@ -1,9 +1,12 @@
-//! What refinement of hexes is to do, and what it returns.
+//! What refinement of hexes is to do, what it returns, and why it refuses.
 
 use serde::{Deserialize, Serialize};
 
 use super::stage::{StageMesh, StageReport};
-use crate::mesh::HexMesh;
+use crate::Cancelled;
+use crate::forest::{Admits, Closure, admits_method_one};
+use crate::mesh::{HexMesh, InvertedHexes};
+use crate::sizing::{Region, SizingError};
 
 /// How refined hexes and coarse ones are joined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -11,7 +14,7 @@ use crate::mesh::HexMesh;
 pub enum Method {
     /// Method I: layer templates. No hex is inverted, and the refined set grows to what they allow.
     One,
-    /// Method II: a pillow, then one template. The refined set hardly grows; the layer is to be smoothed.
+    /// Method II: a pillow, then one template. The refined set hardly grows; the layer is smoothed.
     Two,
     /// 3-refinement: a pillow, then hexes in 27 and a template that needs no groups. Any set.
     Three,
@@ -20,12 +23,66 @@ pub enum Method {
     Auto,
 }
 
-/// What refinement of a hex mesh is to do.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+impl Method {
+    /// Which sets the method's templates fit, if not all.
+    pub(super) fn admits(self) -> Option<Admits> {
+        (self == Self::One).then_some(admits_method_one)
+    }
+}
+
+/// What [`refine_hexes`](super::refine_hexes) is to do. Lengths are in model units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct HexOptions {
     /// How refined hexes and coarse ones are joined.
     pub method: Method,
+    /// No edge longer than this, anywhere.
+    pub edge_length: Option<f64>,
+    /// Refine everything at least this many times.
+    pub levels: Option<u8>,
+    /// Where to refine further.
+    pub regions: Vec<Region>,
+    /// How much larger an element may be than its neighbour around a region with a target size,
+    /// 1 < gradation <= 2. Strong balance gives 2, there and everywhere else.
+    pub gradation: f64,
+    /// No element is refined beyond this level, from 0 to [`HexOptions::DEEPEST_LEVEL`].
+    pub max_levels: u8,
+    /// Refuse a mesh of more hexes than this.
+    pub max_hexes: u64,
+}
+
+impl HexOptions {
+    /// The deepest level that can be asked for.
+    pub const DEEPEST_LEVEL: u8 = 20;
+    /// The most hexes that can be asked for: ids of nodes, edges and faces have 32 bits.
+    pub const MOST_HEXES: u64 = 1 << 28;
+}
+
+impl Default for HexOptions {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            edge_length: None,
+            levels: None,
+            regions: Vec::new(),
+            gradation: 2.0,
+            max_levels: 8,
+            max_hexes: 16_000_000,
+        }
+    }
+}
+
+/// Elements that were refined beyond those that the options ask for, and why.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Added {
+    /// What the rules of conforming refinement asked for, before the work.
+    #[serde(flatten)]
+    pub closure: Closure,
+    /// At places where the interface cannot be separated.
+    pub conflicts: usize,
+    /// At transition hexes that could not be untangled.
+    pub repairs: usize,
 }
 
 /// A conforming hex mesh and where its hexes came from.
@@ -37,17 +94,94 @@ pub struct RefinedHexes {
     pub level: Vec<u8>,
     /// The input hex that each hex is part of.
     pub root: Vec<u32>,
-    /// How many elements were refined beyond those asked for, because the method needs them.
-    pub added: usize,
+    /// Elements that were refined beyond those asked for.
+    pub added: Added,
     /// What each stage did, coarse to fine.
     pub stages: Vec<StageReport>,
+    /// Elements that are larger than asked for, because `max_levels` was reached.
+    pub capped: usize,
+    /// Hexes of the input that were numbered inside out, and were turned.
+    pub turned: usize,
 }
 
 impl RefinedHexes {
     /// The result after the last stage.
-    pub fn new(input: &HexMesh, mesh: StageMesh, added: usize, stages: Vec<StageReport>) -> Self {
+    pub(super) fn new(input: &HexMesh, mesh: StageMesh) -> Self {
         let StageMesh { positions, hexes, level, root, .. } = mesh;
         let tags = input.tags.inherited(&root);
-        Self { mesh: HexMesh { positions, hexes, tags }, level, root, added, stages }
+        Self { mesh: HexMesh { positions, hexes, tags }, level, root, ..Self::default() }
+    }
+}
+
+/// Why a hex mesh was not refined.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum HexRefineError {
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The input has no hexes.
+    #[error("the mesh has no hexes; give one with at least one")]
+    NoHexes,
+    /// The input does not conform; each kind of defect in words.
+    #[error("the mesh cannot be refined: {}", .0.join("; "))]
+    InvalidInput(Vec<String>),
+    /// Some hexes of the input are inside out in part.
+    #[error(transparent)]
+    Inverted(#[from] InvertedHexes),
+    /// An option has a value that cannot be met.
+    #[error("{option} is {value}; {wanted}")]
+    Option {
+        /// The option's name.
+        option: &'static str,
+        /// The value given.
+        value: String,
+        /// What it may be.
+        wanted: &'static str,
+    },
+    /// A size or a region cannot be met.
+    #[error(transparent)]
+    Sizing(SizingError),
+    /// The mesh would have more hexes than allowed.
+    #[error(
+        "level {level} would bring the mesh to {hexes} hexes or more, over the limit of {limit}; raise the edge length \
+         or the limit"
+    )]
+    TooManyHexes {
+        /// The level that would do so.
+        level: u8,
+        /// How many hexes it would come to, at least.
+        hexes: u64,
+        /// The limit.
+        limit: u64,
+    },
+    /// Transition hexes stay inside out, and there is nothing left to refine beside them.
+    #[error(
+        "{0} transition hexes cannot be untangled; the mesh's own hexes there are too distorted to be divided"
+    )]
+    Tangled(usize),
+}
+
+impl HexRefineError {
+    /// A stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Cancelled(_) => "cancelled",
+            Self::NoHexes => "mesh-empty",
+            Self::InvalidInput(_) => "mesh-invalid",
+            Self::Inverted(_) => "mesh-inverted",
+            Self::Sizing(error) => error.code(),
+            Self::Option { .. } => "option-out-of-range",
+            Self::TooManyHexes { .. } => "too-many-hexes",
+            Self::Tangled(_) => "mesh-tangled",
+        }
+    }
+}
+
+impl From<SizingError> for HexRefineError {
+    fn from(error: SizingError) -> Self {
+        match error {
+            SizingError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Sizing(error),
+        }
     }
 }

@@ -12,7 +12,7 @@ use super::transition::{Transition, Transitions, assemble};
 use crate::Monitor;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
-use crate::template::hex::{SPLIT, THIRDS, THIRTEEN};
+use crate::template::hex::{SPLIT, THIRDS, THIRTEEN, Template};
 
 /// No child of a family: the hex is an input hex or a transition hex.
 pub const NO_OCTANT: u8 = u8::MAX;
@@ -137,17 +137,20 @@ pub fn stage(
         Method::Two => {
             let pillow = pillow(&mesh.positions, &interface, monitor)?;
             let divided = quarters(&pillow, &mesh.octant).map_err(StageError::NotCouplable)?;
-            pillowed_stage(mesh, refined, pillow, divided, monitor)
+            pillowed_stage(mesh, refined, pillow, (&SPLIT, divided), monitor)
         }
         Method::Three => {
             let pillow = pillow(&mesh.positions, &interface, monitor)?;
             let divided = thirteens(&pillow);
-            pillowed_stage(mesh, refined, pillow, divided, monitor)
+            pillowed_stage(mesh, refined, pillow, (&THIRDS, divided), monitor)
         }
         Method::Auto => {
             let pillow = pillow(&mesh.positions, &interface, monitor)?;
-            let divided = quarters(&pillow, &mesh.octant).unwrap_or_else(|_| thirteens(&pillow));
-            pillowed_stage(mesh, refined, pillow, divided, monitor)
+            let templates = match quarters(&pillow, &mesh.octant) {
+                Ok(divided) => (&SPLIT, divided),
+                Err(_) => (&THIRDS, thirteens(&pillow)),
+            };
+            pillowed_stage(mesh, refined, pillow, templates, monitor)
         }
     }
 }
@@ -174,16 +177,14 @@ fn thirteens(pillow: &Pillow) -> Vec<Divided> {
     pillow.layer.iter().map(of).collect()
 }
 
-/// The stage after a pillow whose layer is divided as told; the refined hexes follow the layer's template.
+/// The stage after a pillow, with the template of the refined hexes and those of the layer's.
 fn pillowed_stage(
     mesh: &StageMesh,
     refined: &[bool],
     pillow: Pillow,
-    divided: Vec<Divided>,
+    (split, divided): (&'static Template, Vec<Divided>),
     monitor: &dyn Monitor,
 ) -> Result<Stage, StageError> {
-    let in_thirds = divided.iter().any(|hex| std::ptr::eq(hex.template, &THIRTEEN));
-    let split = if in_thirds { &THIRDS } else { &SPLIT };
     let Pillow { positions, hexes, layer, pinched_edges } = pillow;
     let of_coarse = |(hex, divided): (&LayerHex, Divided)| Transition { from: hex.face.coarse, divided };
     let transitions = Transitions {

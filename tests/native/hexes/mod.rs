@@ -3,6 +3,7 @@
 mod counts;
 mod judge;
 mod octants;
+mod pipeline;
 mod sets;
 mod worlds;
 

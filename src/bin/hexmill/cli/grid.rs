@@ -6,12 +6,13 @@ use hexmill::mesh::{GridOptions, hex_grid};
 
 use super::args::GridArgs;
 use super::failure::Failure;
-use super::files::{format_of, load, save};
+use super::files::{check_outputs, format_of, load, save};
 use super::progress::Progress;
 
 /// Makes a grid of hexes around a mesh.
 pub(crate) fn run(args: &GridArgs, quiet: bool) -> Result<(), Failure> {
     let format = format_of(&args.output)?;
+    check_outputs(&[("the input", args.input.as_path())], &[("--output", args.output.as_path())])?;
     let progress = Progress::new(quiet);
     let around = progress.stage("read", || load(&args.input))?.document;
     let options = GridOptions {

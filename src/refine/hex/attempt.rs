@@ -1,0 +1,67 @@
+//! A stage with its transition untangled and smoothed; or what must be refined too.
+
+use super::options::{HexRefineError, Method};
+use super::stage::{Stage, StageError, StageMesh, stage};
+use crate::Monitor;
+use crate::mesh::HexId;
+use crate::optimize::{BoundarySurface, Constraints, OptimizeOptions, optimize};
+
+/// How a stage ended.
+pub(super) enum Attempt {
+    /// Every hex is positive.
+    Made(Box<Stage>),
+    /// The interface cannot be separated unless these hexes are refined too.
+    Conflict(Vec<u32>),
+    /// So many `hexes` stay inside out; the `coarse` ones beside them are to be refined too.
+    Tangled { coarse: Vec<u32>, hexes: usize },
+}
+
+/// Makes a stage, untangles its transition and smooths it.
+pub(super) fn attempt(
+    mesh: &StageMesh,
+    refined: &[bool],
+    method: Method,
+    surface: &BoundarySurface,
+    monitor: &dyn Monitor,
+) -> Result<Attempt, HexRefineError> {
+    let mut next = match stage(mesh, refined, method, monitor) {
+        Err(StageError::Conflict(hexes)) => return Ok(Attempt::Conflict(hexes)),
+        other => other.map_err(without_template)?,
+    };
+    if next.layer_nodes.is_empty() {
+        return Ok(Attempt::Made(Box::new(next)));
+    }
+    let StageMesh { positions, hexes, .. } = &mut next.mesh;
+    let mut movable = vec![false; positions.len()];
+    next.layer_nodes.iter().for_each(|n| movable[n.index()] = true);
+    let constraints = Constraints::of_hexes(positions, hexes, surface);
+    let options = OptimizeOptions::default();
+    let tangled = optimize(positions, hexes, &movable, &constraints, &options, monitor)?.inverted;
+    if tangled.is_empty() {
+        return Ok(Attempt::Made(Box::new(next)));
+    }
+    Ok(Attempt::Tangled { coarse: coarse_at(&next, &tangled), hexes: tangled.len() })
+}
+
+/// What it means that a stage was not made, other than for a conflict: a closed octree leaves no such place.
+pub(super) fn without_template(error: StageError) -> HexRefineError {
+    match error {
+        StageError::Cancelled(cancelled) => HexRefineError::Cancelled(cancelled),
+        StageError::Conflict(hexes) | StageError::Forbidden(hexes) | StageError::NotCouplable(hexes) => {
+            HexRefineError::Tangled(hexes.len())
+        }
+    }
+}
+
+/// The coarse hexes whose transition hexes touch those that are `tangled`.
+fn coarse_at(stage: &Stage, tangled: &[HexId]) -> Vec<u32> {
+    let hexes = &stage.mesh.hexes;
+    let mut is_near = vec![false; stage.mesh.positions.len()];
+    tangled.iter().flat_map(|h| hexes[h.index()]).for_each(|n| is_near[n.index()] = true);
+    let transition = stage.first_transition..hexes.len();
+    let touching = transition.filter(|&h| hexes[h].iter().any(|n| is_near[n.index()]));
+    let mut coarse: Vec<u32> = touching.map(|h| stage.from[h]).collect();
+    coarse.sort_unstable();
+    coarse.dedup();
+    coarse
+}

@@ -1,0 +1,218 @@
+//! From a hex mesh and regions to a conforming, smoothed hex mesh.
+
+use hexmill::Silent;
+use hexmill::geometry::{Aabb, Point};
+use hexmill::mesh::quality::{Certainty, hex_quality};
+use hexmill::mesh::{
+    GridOptions, HexId, HexMesh, NodeId, TagSet, Tags, Volumes, check_hexes, hex_grid, mesh_hash,
+};
+use hexmill::refine::hex::{HexOptions, HexPlan, HexRefineError, Method, RefinedHexes, refine_hexes};
+use hexmill::sizing::{Region, Shape, Target};
+
+use super::judge::Numbers;
+
+/// `n` unit cubes an axis.
+fn cubes(n: u32) -> HexMesh {
+    let bounds = Aabb { min: Point::ZERO, max: Point::splat(f64::from(n)) };
+    let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 1 << 20 };
+    hex_grid(bounds, &options).expect("a small grid")
+}
+
+/// A box to be refined to a level.
+fn block(min: [f64; 3], max: [f64; 3], level: u8) -> Region {
+    let shape = Shape::Box { min: min.into(), max: max.into(), rotation: Default::default() };
+    Region { shape, target: Target::Level(level) }
+}
+
+fn options(method: Method, regions: Vec<Region>) -> HexOptions {
+    HexOptions { method, regions, ..HexOptions::default() }
+}
+
+/// Refines and holds the result to the promises; returns it with its least scaled Jacobian.
+fn refine(input: &HexMesh, options: &HexOptions) -> (RefinedHexes, f64) {
+    let refined = refine_hexes(input, options, &Silent).expect("it can be refined");
+    let defects = check_hexes(&refined.mesh);
+    assert!(defects.is_empty(), "{defects:?}");
+    let quality = hex_quality(&refined.mesh);
+    assert!(quality.positive.iter().all(|&certainty| certainty == Certainty::Positive));
+    let [before, after] = [input, &refined.mesh].map(|mesh| Volumes::of(mesh).expect("hexes").total);
+    assert!((after - before).abs() <= 1e-9 * before, "the volume {before} became {after}");
+    assert_eq!(refined.level.len(), refined.mesh.hexes.len());
+    assert_eq!(refined.root.len(), refined.mesh.hexes.len());
+    let worst = quality.scaled_jacobian.iter().copied().fold(f32::INFINITY, f32::min);
+    (refined, f64::from(worst))
+}
+
+/// The worlds of refined blocks in 4 x 4 x 4 cubes, each cube in 8 at level 1.
+fn worlds() -> Vec<(&'static str, Vec<Region>, [f64; 2])> {
+    vec![
+        ("box", vec![block([1.0; 3], [3.0; 3], 2)], [0.6, 0.45]),
+        (
+            "L through the domain",
+            vec![block([0.0, 1.0, 1.0], [4.0, 3.0, 2.0], 2), block([0.0, 1.0, 1.0], [4.0, 2.0, 3.0], 2)],
+            [0.55, 0.45],
+        ),
+        (
+            "L prism",
+            vec![block([1.0; 3], [3.0, 3.0, 2.0], 2), block([1.0; 3], [2.0, 3.0, 3.0], 2)],
+            [0.55, 0.45],
+        ),
+        (
+            "touching at an edge",
+            vec![block([1.0; 3], [2.0; 3], 2), block([2.0, 2.0, 1.0], [3.0, 3.0, 2.0], 2)],
+            [0.43, 0.35],
+        ),
+        (
+            "touching at a vertex",
+            vec![block([1.0; 3], [2.0; 3], 2), block([2.0; 3], [3.0; 3], 2)],
+            [0.43, 0.35],
+        ),
+        ("two levels", vec![block([0.5; 3], [3.5; 3], 2), block([1.5; 3], [2.5; 3], 3)], [0.55, 0.4]),
+        ("at the boundary", vec![block([0.0; 3], [2.0; 3], 2)], [0.55, 0.45]),
+    ]
+}
+
+#[test]
+fn the_named_worlds_are_good() {
+    for (name, regions, least) in worlds() {
+        for (method, least) in [Method::One, Method::Two].into_iter().zip(least) {
+            let (refined, worst) = refine(&cubes(4), &options(method, regions.clone()));
+            println!(
+                "{name}, {method:?}: {} hexes, worst {worst:.3}, added {:?}",
+                refined.mesh.hexes.len(),
+                refined.added
+            );
+            assert!(worst >= least, "{name}, {method:?}: {worst} < {least}");
+        }
+    }
+}
+
+#[test]
+fn counts_are_those_of_the_formulas() {
+    let middle = vec![block([1.0; 3], [3.0; 3], 2)];
+    for (method, hexes) in [(Method::One, 1896), (Method::Two, 1632), (Method::Auto, 1632)] {
+        let (refined, _) = refine(&cubes(4), &options(method, middle.clone()));
+        assert_eq!(refined.mesh.hexes.len(), hexes, "{method:?}");
+        assert_eq!((refined.added.conflicts, refined.added.repairs), (0, 0));
+    }
+    // 3-refinement of 2 x 2 x 2 of 4 x 4 x 4: H + 26 |R| + 13 |interface|.
+    let (refined, _) = refine(&cubes(4), &options(Method::Three, vec![block([1.0; 3], [3.0; 3], 1)]));
+    assert_eq!(refined.mesh.hexes.len(), 64 + 26 * 8 + 13 * 24);
+}
+
+#[test]
+fn random_sets_stay_good() {
+    for seed in 0..6 {
+        let mut random = Numbers(seed);
+        let mut regions = Vec::new();
+        for _ in 0..5 {
+            let min: [f64; 3] = std::array::from_fn(|_| (random.next() * 4.0).floor());
+            regions.push(block(min, min.map(|x| x + 1.0), 2));
+        }
+        for (method, least) in [(Method::One, 0.43), (Method::Two, 0.2), (Method::Three, 0.2)] {
+            // As deep as the interface of hexes of the input allows: 3-refinement has no balance.
+            let max_levels = if method == Method::Three { 1 } else { 2 };
+            let options = HexOptions { max_levels, ..options(method, regions.clone()) };
+            let (_, worst) = refine(&cubes(4), &options);
+            println!("seed {seed}, {method:?}: {worst:.3}");
+            assert!(worst >= least, "seed {seed}, {method:?}: {worst}");
+        }
+    }
+}
+
+#[test]
+fn nothing_to_refine_leaves_the_mesh() {
+    let cube = cubes(2);
+    let (refined, _) = refine(&cube, &HexOptions::default());
+    assert_eq!(refined.mesh.hexes, cube.hexes);
+    assert_eq!(refined.mesh.positions, cube.positions);
+}
+
+#[test]
+fn everything_is_refined_alike() {
+    for (method, hexes) in [(Method::One, 512), (Method::Two, 512), (Method::Three, 27 * 27)] {
+        let input = cubes(if method == Method::Three { 1 } else { 2 });
+        let (refined, worst) =
+            refine(&input, &HexOptions { method, levels: Some(2), ..HexOptions::default() });
+        assert_eq!(refined.mesh.hexes.len(), hexes);
+        assert!(worst > 1.0 - 1e-6);
+    }
+}
+
+#[test]
+fn any_number_of_threads_makes_the_same_bytes() {
+    let regions = vec![block([0.5; 3], [2.5; 3], 2), block([2.0; 3], [3.0; 3], 3)];
+    for method in [Method::One, Method::Two, Method::Three] {
+        let regions =
+            if method == Method::Three { vec![block([1.0; 3], [2.0; 3], 1)] } else { regions.clone() };
+        let hashes = [1, 2, 4].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let refined =
+                pool.install(|| refine_hexes(&cubes(4), &options(method, regions.clone()), &Silent));
+            let mesh = refined.expect("it can be refined").mesh;
+            mesh_hash(&mesh.positions, &mesh.hexes).to_string()
+        });
+        assert!(hashes.iter().all(|hash| *hash == hashes[0]), "{method:?}: {hashes:?}");
+    }
+}
+
+#[test]
+fn tags_and_roots_are_inherited() {
+    let mut input = cubes(2);
+    input.tags = Tags {
+        sets: vec![TagSet::default(), TagSet { groups: vec!["core".into()], ..TagSet::default() }],
+        of_element: vec![0, 1, 0, 0, 0, 0, 0, 0],
+    };
+    let (refined, _) = refine(&input, &options(Method::Two, vec![block([0.0; 3], [0.5; 3], 3)]));
+    for (h, &root) in refined.root.iter().enumerate() {
+        let groups = |tags: &Tags, element: usize| tags.of(element).map(|set| set.groups.clone());
+        assert_eq!(groups(&refined.mesh.tags, h), groups(&input.tags, root as usize), "{}", HexId::new(h));
+    }
+    assert!(refined.root.contains(&1));
+}
+
+#[test]
+fn mirrored_hexes_are_turned_and_unused_nodes_dropped() {
+    let mut input = cubes(2);
+    for hex in &mut input.hexes {
+        hex.rotate_left(4);
+    }
+    input.positions.push(Point::splat(9.0));
+    let refined = refine_hexes(&input, &HexOptions::default(), &Silent).expect("it can be mended");
+    assert_eq!((refined.turned, refined.mesh.positions.len()), (8, 27));
+    assert!(check_hexes(&refined.mesh).is_empty());
+}
+
+#[test]
+fn bad_input_and_options_are_refused() {
+    let code = |mesh: &HexMesh, options: &HexOptions| {
+        refine_hexes(mesh, options, &Silent).expect_err("it is refused").code()
+    };
+    assert_eq!(code(&HexMesh::default(), &HexOptions::default()), "mesh-empty");
+    let mut loose = cubes(1);
+    loose.hexes[0][3] = NodeId(77);
+    assert_eq!(code(&loose, &HexOptions::default()), "mesh-invalid");
+    let mut folded = cubes(1);
+    folded.positions[0] = Point::splat(2.0);
+    assert_eq!(code(&folded, &HexOptions::default()), "mesh-inverted");
+    let deep = HexOptions { levels: Some(9), ..HexOptions::default() };
+    assert_eq!(code(&cubes(1), &deep), "option-out-of-range");
+    let many = HexOptions { levels: Some(8), ..HexOptions::default() };
+    assert_eq!(code(&cubes(4), &many), "too-many-hexes");
+    let layer = HexOptions { max_hexes: 1000, ..options(Method::Two, vec![block([1.0; 3], [3.0; 3], 2)]) };
+    assert!(matches!(
+        refine_hexes(&cubes(4), &layer, &Silent),
+        Err(HexRefineError::TooManyHexes { hexes: 1632, .. })
+    ));
+}
+
+#[test]
+fn what_the_method_adds_is_told_before_the_work() {
+    let prism = vec![block([1.0; 3], [3.0, 3.0, 2.0], 2), block([1.0; 3], [2.0, 3.0, 3.0], 2)];
+    let (one, two) = (options(Method::One, prism.clone()), options(Method::Two, prism));
+    let (one, two) = (HexPlan::new(&cubes(4), &one, &Silent), HexPlan::new(&cubes(4), &two, &Silent));
+    let added =
+        |plan: Result<HexPlan, HexRefineError>| plan.expect("it can be refined").added().closure.method;
+    // Two families of eight close the concave ridge.
+    assert_eq!((added(one), added(two)), (16, 0));
+}
