@@ -3,6 +3,7 @@
 use crate::geometry::Point;
 use crate::mesh::{FaceId, HexMesh, PolygonMesh, QuadMesh, Tags};
 use crate::refine::RefinedQuads;
+use crate::refine::hex::RefinedHexes;
 
 /// The cells of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,6 +99,13 @@ impl From<QuadMesh> for Document {
 impl From<HexMesh> for Document {
     fn from(mesh: HexMesh) -> Self {
         Self::new(AnyMesh::Hexes(mesh))
+    }
+}
+
+impl From<RefinedHexes> for Document {
+    fn from(refined: RefinedHexes) -> Self {
+        let document = Self::from(refined.mesh);
+        Self { level: refined.level, parent: refined.root.into_iter().map(FaceId).collect(), ..document }
     }
 }
 

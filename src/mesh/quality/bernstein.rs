@@ -90,11 +90,6 @@ pub fn min_jacobian_bound(corners: &[Point; 8]) -> JacobianBound {
     bound
 }
 
-/// The integral of the Jacobian determinant: the mean of its coefficients.
-pub(super) fn volume(corners: &[Point; 8]) -> f64 {
-    Part::of(corners).0.iter().sum::<f64>() / 27.0
-}
-
 /// The product of the longest edges in the three directions.
 fn magnitude(corners: &[Point; 8]) -> f64 {
     let edges = Edges::of(corners);

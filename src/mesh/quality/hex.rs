@@ -14,11 +14,11 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::bernstein::{Certainty, is_positive, volume};
+use super::bernstein::{Certainty, is_positive};
 use super::{Distribution, Summary};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::{EDGES, NEIGHBOURS};
-use crate::mesh::{HexMesh, NodeId};
+use crate::mesh::{HexMesh, NodeId, hex_volume};
 
 /// Measures of each hex of a mesh, in order of hexes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,7 +47,7 @@ pub struct HexQuality {
 pub fn hex_quality(mesh: &HexMesh) -> HexQuality {
     let corners = |hex: &[NodeId; 8]| hex.map(|n| mesh.positions[n.index()]);
     let volumes: Vec<f64> =
-        mesh.hexes.par_iter().with_min_len(1024).map(|hex| volume(&corners(hex))).collect();
+        mesh.hexes.par_iter().with_min_len(1024).map(|hex| hex_volume(&corners(hex))).collect();
     let hexes = || mesh.hexes.par_iter().with_min_len(1024);
     HexQuality {
         scaled_jacobian: hexes().map(|hex| scaled_jacobian(&corners(hex)) as f32).collect(),
@@ -70,11 +70,6 @@ pub fn corner_scaled_jacobians(corners: &[Point; 8]) -> [f64; 8] {
         let [a, b, c] = NEIGHBOURS[k].map(|end| (corners[usize::from(end)] - corners[k]).normalize_or_zero());
         a.dot(b.cross(c))
     })
-}
-
-/// The volume of the trilinear hex, negative where it is inside out.
-pub fn hex_volume(corners: &[Point; 8]) -> f64 {
-    volume(corners)
 }
 
 /// The longest edge over the shortest.

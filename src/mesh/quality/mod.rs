@@ -9,8 +9,6 @@ mod quad;
 mod statistics;
 
 pub use bernstein::{Certainty, JacobianBound, is_positive, min_jacobian_bound};
-pub use hex::{
-    HexQuality, HexQualityReport, corner_scaled_jacobians, hex_quality, hex_volume, scaled_jacobian,
-};
+pub use hex::{HexQuality, HexQualityReport, corner_scaled_jacobians, hex_quality, scaled_jacobian};
 pub use quad::{QuadQuality, QualityReport, quad_quality};
 pub use statistics::{Distribution, Histogram, Summary};

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use hexmill::refine::QuadOptions;
+use hexmill::refine::hex::{HexOptions, Method};
 
 use super::region::RegionArg;
 
-/// Conforming quad meshes from polygon surfaces.
+/// Conforming quad and hex meshes, refined where they are wanted finer.
 ///
 /// The format of a file is told by its extension: obj, vtu, vtk, msh, inp, mesh (MEDIT), glb (output only).
 ///
@@ -28,7 +29,7 @@ pub(crate) struct Cli {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Refine a surface to a conforming quad mesh
+    /// Refine a surface to a conforming quad mesh, or a hex mesh to a conforming hex mesh
     #[command(after_long_help = REFINE_EXAMPLES)]
     Refine(RefineArgs),
     /// Say what is wrong with a mesh, and how good it is
@@ -63,6 +64,10 @@ Examples:
   Near the nodes of one mesh and within 1.5 of the surface of another:
     hexmill refine part.obj -o part.vtu --region points:probes.obj,0.5:level=4 \\
       --region surface:shock.obj,1.5:h=0.25
+
+  Hexes around a hull, three levels deep at its surface:
+    hexmill grid hull.obj --spacing 1 --margin 4 -o sea.vtu
+    hexmill refine sea.vtu -o fine.vtu --method two --region surface:hull.obj,0:level=3
 
   Follow curvature, ten degrees an edge, and keep a record:
     hexmill refine part.obj -o part.vtu --curvature 10 --report part.json
@@ -102,7 +107,7 @@ Examples:
 /// `hexmill refine`.
 #[derive(Args, Debug)]
 pub(crate) struct RefineArgs {
-    /// The surface: triangles, quads and polygons in any mixture
+    /// The surface, triangles, quads and polygons in any mixture; or the hex mesh
     #[arg(value_name = "IN")]
     pub(crate) input: PathBuf,
 
@@ -122,7 +127,11 @@ pub(crate) struct RefineArgs {
     #[arg(long, short, value_name = "N", value_parser = levels())]
     pub(crate) levels: Option<u8>,
 
-    /// Turn of the surface's normal that one edge may span, in degrees
+    /// How refined hexes and coarse ones are joined; hexes only [default: auto]
+    #[arg(long, value_enum, value_name = "METHOD")]
+    pub(crate) method: Option<MethodArg>,
+
+    /// Turn of the surface's normal that one edge may span, in degrees; surfaces only
     #[arg(long, value_name = "DEG", value_parser = angle)]
     pub(crate) curvature: Option<f64>,
 
@@ -130,17 +139,21 @@ pub(crate) struct RefineArgs {
     #[arg(long, value_name = "G", value_parser = gradation)]
     pub(crate) gradation: Option<f64>,
 
-    /// Leave untouched quads as they are (all-quad input whose nodes can be two-coloured)
+    /// Leave untouched quads as they are (all-quad surfaces whose nodes can be two-coloured)
     #[arg(long)]
     pub(crate) keep_coarse: bool,
 
-    /// Refine no element more often than this [default: 12]
+    /// Refine no element more often than this [default: 12; of hexes 8]
     #[arg(long, value_name = "N", value_parser = levels())]
     pub(crate) max_levels: Option<u8>,
 
     /// Refuse to make more quads than this [default: 64000000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=QuadOptions::MOST_QUADS))]
     pub(crate) max_quads: Option<u64>,
+
+    /// Refuse to make more hexes than this [default: 16000000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexOptions::MOST_HEXES))]
+    pub(crate) max_hexes: Option<u64>,
 
     /// Threads to use [default: one a core]; the result does not depend on it
     #[arg(long, short = 'j', value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -149,6 +162,30 @@ pub(crate) struct RefineArgs {
     /// Where to write a record of the work as JSON (see docs/report.md)
     #[arg(long, value_name = "FILE")]
     pub(crate) report: Option<PathBuf>,
+}
+
+/// How refined hexes and coarse ones are joined.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum MethodArg {
+    /// Layer templates: the refined set grows to what they allow, the worst hexes are best
+    One,
+    /// A pillow and one template: the refined set hardly grows
+    Two,
+    /// A pillow, hexes in 27
+    Three,
+    /// Method two, or three where the set cannot be grouped two by two
+    Auto,
+}
+
+impl From<MethodArg> for Method {
+    fn from(method: MethodArg) -> Self {
+        match method {
+            MethodArg::One => Self::One,
+            MethodArg::Two => Self::Two,
+            MethodArg::Three => Self::Three,
+            MethodArg::Auto => Self::Auto,
+        }
+    }
 }
 
 /// `hexmill check`.

@@ -26,7 +26,7 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     let document = std::mem::replace(&mut loaded.document, empty);
     let (counts, mesh, surface) = match document.mesh {
         AnyMesh::Hexes(hexes) => {
-            let mut mesh = progress.stage("measure", || MeshReport::of_hexes(&hexes, &document.level));
+            let mut mesh = progress.stage("measure", || MeshReport::of_hexes(&hexes, &document.level, 0));
             progress.stage("check", || mesh.check_hexes(&hexes));
             let rim = args.surface.is_some().then(|| boundary(hexes));
             (mesh.counts, mesh, rim.unwrap_or_default())

@@ -9,6 +9,7 @@ mod files;
 mod grid;
 mod progress;
 mod refine;
+mod refine_hexes;
 mod region;
 mod report;
 

@@ -8,6 +8,7 @@ use super::args::RefineArgs;
 use super::failure::Failure;
 use super::files::{check_outputs, format_of, load, save};
 use super::progress::Progress;
+use super::refine_hexes;
 use super::report::{Counts, FileReport, InputReport, MeshReport, OptionsReport, Report, peak_memory_bytes};
 
 /// Reads, refines, writes and reports.
@@ -25,10 +26,16 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
     let empty = Document::from(PolygonMesh::default());
-    let surface = std::mem::replace(&mut loaded.document, empty).into_surface().ok_or_else(|| {
-        let message = format!("{}: holds hexes; give a surface of polygons to refine", args.input.display());
-        Failure::refused("surface-needed", message)
-    })?;
+    let document = std::mem::replace(&mut loaded.document, empty);
+    if matches!(document.mesh, AnyMesh::Hexes(_)) {
+        return refine_hexes::run(args, quiet, &loaded, document, output_format, progress);
+    }
+    if args.method.is_some() || args.max_hexes.is_some() {
+        let message =
+            format!("--method and --max-hexes are for hexes; {} holds a surface", args.input.display());
+        return Err(Failure::Usage(message));
+    }
+    let surface = document.into_surface().expect("hexes were taken above");
     let input = InputReport::new(&loaded, Counts::of_polygons(&surface));
     let options = options(args)?;
     let refined =
@@ -106,11 +113,14 @@ fn options_report(args: &RefineArgs, options: &QuadOptions) -> OptionsReport {
         gradation: options.gradation,
         keep_coarse: options.keep_coarse,
         max_levels: options.max_levels,
-        max_quads: options.max_quads,
+        max_quads: Some(options.max_quads),
+        max_hexes: None,
+        method: None,
     }
 }
 
-fn in_words(args: &RefineArgs, report: &Report) -> String {
+/// What was made, for people.
+pub(super) fn in_words(args: &RefineArgs, report: &Report) -> String {
     let mesh = &report.mesh;
     let levels: Vec<String> =
         mesh.levels.iter().map(|count| format!("{} of level {}", count.cells, count.level)).collect();

@@ -5,12 +5,13 @@ use std::path::Path;
 use hexmill::geometry::Aabb;
 use hexmill::io::Format;
 use hexmill::mesh::check::{DefectCount, summary};
-use hexmill::mesh::quality::{Distribution, QualityReport, quad_quality};
+use hexmill::mesh::quality::{Distribution, HexQualityReport, QualityReport, hex_quality, quad_quality};
 use hexmill::mesh::topology::{HexEdges, HexFaces, HexReport, SurfaceReport, hex_report, surface_report};
 use hexmill::mesh::{
     Defect, Edges, Faces, HexMesh, MeshHash, NodeId, PolygonMesh, QuadMesh, Volumes, check_hexes, mesh_hash,
     polygon_hash,
 };
+use hexmill::refine::hex::{Added, Method, StageReport};
 use serde::Serialize;
 
 use super::distance::Distances;
@@ -34,6 +35,9 @@ pub(crate) struct Report {
     pub(crate) input: InputReport,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) options: Option<OptionsReport>,
+    /// Of a refinement of hexes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) refinement: Option<HexRefinementReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) output: Option<FileReport>,
     pub(crate) mesh: MeshReport,
@@ -54,6 +58,7 @@ impl Report {
             command,
             input,
             options: None,
+            refinement: None,
             output: None,
             mesh,
             distance: None,
@@ -103,6 +108,15 @@ impl InputReport {
     }
 }
 
+/// What the refinement of hexes did.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct HexRefinementReport {
+    pub(crate) added: Added,
+    pub(crate) turned: usize,
+    pub(crate) levels: Vec<StageReport>,
+}
+
 /// The command line's options as they were given, defaults filled in.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -114,7 +128,12 @@ pub(crate) struct OptionsReport {
     pub(crate) gradation: f64,
     pub(crate) keep_coarse: bool,
     pub(crate) max_levels: u8,
-    pub(crate) max_quads: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) max_quads: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) max_hexes: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) method: Option<Method>,
 }
 
 /// How many of what.
@@ -188,7 +207,7 @@ pub(crate) struct MeshReport {
     pub(crate) hash: MeshHash,
     pub(crate) levels: Vec<LevelCount>,
     pub(crate) capped: usize,
-    pub(crate) quality: Option<QualityReport>,
+    pub(crate) quality: Option<Quality>,
     /// Of hexes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) volume: Option<Volumes>,
@@ -196,6 +215,14 @@ pub(crate) struct MeshReport {
     pub(crate) topology: Option<Topology>,
     /// Filled in by [`MeshReport::check`].
     pub(crate) defects: Option<Defects>,
+}
+
+/// How good the cells of a mesh are.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(crate) enum Quality {
+    Quads(QualityReport),
+    Hexes(HexQualityReport),
 }
 
 /// What kind of surface or solid a mesh is.
@@ -241,7 +268,7 @@ impl MeshReport {
             hash: mesh_hash(&mesh.positions, &mesh.quads),
             levels: levels(level),
             capped,
-            quality: quad_quality(mesh).report(),
+            quality: quad_quality(mesh).report().map(Quality::Quads),
             volume: None,
             topology: None,
             defects: None,
@@ -259,7 +286,7 @@ impl MeshReport {
             hash: polygon_hash(mesh),
             levels: levels(level),
             capped: 0,
-            quality: quad_quality(&quads).report(),
+            quality: quad_quality(&quads).report().map(Quality::Quads),
             volume: None,
             topology: None,
             defects: None,
@@ -273,13 +300,13 @@ impl MeshReport {
     }
 
     /// Measures a hex mesh whose hexes have these levels (none, or one a hex).
-    pub(crate) fn of_hexes(mesh: &HexMesh, level: &[u8]) -> Self {
+    pub(crate) fn of_hexes(mesh: &HexMesh, level: &[u8], capped: usize) -> Self {
         Self {
             counts: Counts::of_hexes(mesh),
             hash: mesh_hash(&mesh.positions, &mesh.hexes),
             levels: levels(level),
-            capped: 0,
-            quality: None,
+            capped,
+            quality: hex_quality(mesh).report().map(Quality::Hexes),
             volume: Volumes::of(mesh),
             topology: None,
             defects: None,
@@ -316,14 +343,20 @@ pub(crate) fn quality_line(name: &str, values: &Distribution) -> String {
 }
 
 /// The quality of a mesh as a table.
-pub(crate) fn quality_table(quality: &QualityReport) -> String {
-    let lines = [
-        format!("  {:<16} {:>9} {:>9} {:>9} {:>9}", "quality", "min", "1%", "mean", "max"),
-        quality_line("scaled Jacobian", &quality.scaled_jacobian),
-        quality_line("least angle", &quality.min_angle),
-        quality_line("greatest angle", &quality.max_angle),
-        quality_line("aspect", &quality.aspect),
-    ];
+pub(crate) fn quality_table(quality: &Quality) -> String {
+    let mut lines = vec![format!("  {:<16} {:>9} {:>9} {:>9} {:>9}", "quality", "min", "1%", "mean", "max")];
+    match quality {
+        Quality::Quads(quality) => lines.extend([
+            quality_line("scaled Jacobian", &quality.scaled_jacobian),
+            quality_line("least angle", &quality.min_angle),
+            quality_line("greatest angle", &quality.max_angle),
+            quality_line("aspect", &quality.aspect),
+        ]),
+        Quality::Hexes(quality) => lines.extend([
+            quality_line("scaled Jacobian", &quality.scaled_jacobian),
+            quality_line("aspect", &quality.aspect),
+        ]),
+    }
     lines.join("\n")
 }
 
