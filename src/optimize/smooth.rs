@@ -10,12 +10,12 @@ use super::sweep::{Rules, sweep};
 use super::{OptimizeOptions, SMOOTHING};
 use crate::{Cancelled, Monitor};
 
-/// The stages' energies.
+/// The stages' energies. Shape has a share in each: angles alone would be best with edges of no length.
 const COURSES: [Weights; 4] = [
     Weights { doublings: 0, mu: 0.0 },
     Weights { doublings: 1, mu: 0.3 },
-    Weights { doublings: 2, mu: 0.9 },
-    Weights { doublings: 3, mu: 1.0 },
+    Weights { doublings: 2, mu: 0.999 },
+    Weights { doublings: 3, mu: 0.99999 },
 ];
 
 /// Rings of cells around those below the target whose nodes move too.

@@ -226,11 +226,12 @@ fn help_shows_worked_examples() {
     // The examples' options are all known: each runs as far as its missing input.
     let examples = help[help.find("Examples:").unwrap()..].replace("\\\n", " ");
     let lines: Vec<&str> = examples.lines().map(str::trim).filter(|l| l.starts_with("hexmill ")).collect();
-    assert_eq!(lines.len(), 7, "{lines:?}");
+    assert_eq!(lines.len(), 8, "{lines:?}");
     for line in lines {
         let args: Vec<&str> = line.split_whitespace().skip(1).collect();
         let run = hexmill(&folder, &args);
         assert_eq!(run.code, Some(1), "{line}: {}", run.stderr);
-        assert!(run.stderr.starts_with("error[file-not-read]: part.obj: cannot be read"), "{}", run.stderr);
+        let refusal = format!("error[file-not-read]: {}: cannot be read", args[1]);
+        assert!(run.stderr.starts_with(&refusal), "{}", run.stderr);
     }
 }

@@ -39,6 +39,8 @@ fn refine(input: &HexMesh, options: &HexOptions) -> (RefinedHexes, f64) {
     assert!((after - before).abs() <= 1e-9 * before, "the volume {before} became {after}");
     assert_eq!(refined.level.len(), refined.mesh.hexes.len());
     assert_eq!(refined.root.len(), refined.mesh.hexes.len());
+    let slimmest = quality.aspect.iter().copied().fold(1.0, f32::max);
+    assert!(slimmest < 20.0, "an edge is {slimmest} times shorter than another of its hex");
     let worst = quality.scaled_jacobian.iter().copied().fold(f32::INFINITY, f32::min);
     (refined, f64::from(worst))
 }

@@ -65,8 +65,7 @@ Examples:
     hexmill refine part.obj -o part.vtu --region points:probes.obj,0.5:level=4 \\
       --region surface:shock.obj,1.5:h=0.25
 
-  Hexes around a hull, three levels deep at its surface:
-    hexmill grid hull.obj --spacing 1 --margin 4 -o sea.vtu
+  Hexes around a hull (see hexmill grid), three levels deep at its surface:
     hexmill refine sea.vtu -o fine.vtu --method two --region surface:hull.obj,0:level=3
 
   Follow curvature, ten degrees an edge, and keep a record:
