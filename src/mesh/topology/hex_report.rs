@@ -29,7 +29,7 @@ pub struct HexReport {
     pub non_manifold_faces: usize,
     /// Edges with boundary faces, but not two.
     pub non_manifold_edges: usize,
-    /// Nodes around which the hexes fill neither a ball nor half of one: see [`Links`].
+    /// Nodes around which the hexes fill neither a ball nor half of one.
     pub non_manifold_nodes: usize,
     /// Parts that share no node.
     pub components: usize,
