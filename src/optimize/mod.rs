@@ -96,7 +96,7 @@ const SMOOTHING: Stage = Stage("smoothing");
 /// let movable = [false, false, false, false, false, false, true, false];
 /// let report =
 ///     optimize(&mut positions, &hexes, &movable, &Constraints::none(8), &Default::default(), &Silent).unwrap();
-/// assert!(report.worst_before.unwrap() < 0.0 && report.worst_after.unwrap() > 0.75);
+/// assert!(report.worst_before.unwrap() < 0.0 && report.worst_after.unwrap() > 0.9);
 /// ```
 pub fn optimize(
     positions: &mut [Point],

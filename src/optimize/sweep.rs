@@ -88,7 +88,8 @@ struct Step {
     far: bool,
 }
 
-/// A place for the node with less energy, found by Newton's step and its halves; `None` to stay.
+/// A place for the node with less energy, found by Newton's step, its halves, and the doubles of short ones; `None` to
+/// stay.
 fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Option<Step> {
     star.gather(problem, node, rules.eps);
     let from = problem.points[node as usize];
@@ -97,19 +98,31 @@ fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Optio
         return None;
     }
     let (id, anchor) = (problem.nodes[node as usize], problem.anchors[node as usize]);
-    let step = newton(here, problem.constraints.tangent(id, from), star.size)?;
+    let size = star.size;
+    let step = newton(here, problem.constraints.tangent(id, from), size)?;
     let kept = rules.floor.map(|floor| star.worst(from).min(floor));
-    let mut share = 1.0;
-    for _ in 0..HALVINGS {
-        let to = problem.constraints.project(id, anchor, from + step * share);
-        if star.energy(to, rules.weights, here.value) < here.value
-            && kept.is_none_or(|kept| star.worst(to) >= kept && star.stays_positive(to))
-        {
-            return Some(Step { to, far: to.distance(from) > ASLEEP * star.size });
+    let at = |share: f64| problem.constraints.project(id, anchor, from + step * share);
+    let mut lowered = |to: Point, limit: f64| {
+        let energy = star.energy(to, rules.weights, limit);
+        let keeps = |kept: f64| star.worst(to) >= kept && star.stays_positive(to);
+        (energy < limit && kept.is_none_or(keeps)).then_some(energy)
+    };
+    let (mut share, mut best) = (1.0, lowered(at(1.0), here.value));
+    for _ in 1..HALVINGS {
+        if best.is_some() {
+            break;
         }
         share *= 0.5;
+        best = lowered(at(share), here.value);
     }
-    None
+    let mut energy = best?;
+    // Where a cell has next to no volume the energy is so steep that Newton's steps hardly move.
+    while at(share).distance(from) <= ASLEEP * size {
+        let Some(lower) = lowered(at(2.0 * share), energy) else { break };
+        (share, energy) = (2.0 * share, lower);
+    }
+    let to = at(share);
+    Some(Step { to, far: to.distance(from) > ASLEEP * size })
 }
 
 /// Newton's step within the tangent space; where the energy is not convex, with as much of the identity added as
