@@ -11,7 +11,8 @@ use hexmill::io::{AnyMesh, Format, read};
 use hexmill::mesh::mesh_hash;
 use hexmill::refine::{QuadOptions, refine_quads};
 
-/// The command line's allocator.
+/// The command line's allocator. `wasm-pack test` builds every example for the web, where there is none.
+#[cfg(not(target_arch = "wasm32"))]
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 

@@ -2,7 +2,8 @@
 //
 //     npm run bench
 //
-// Prints a Markdown table: millions of quads a second, ratios, and native peak memory a quad.
+// Prints a Markdown table: millions of quads a second, ratios, and what a native process on one thread holds at most
+// for each quad, with the pages that its allocator keeps from run to run.
 
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -11,6 +12,7 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
 import { buildWasm } from './build-wasm.mjs';
+import { setup } from './setup.mjs';
 import { Failure, main, root } from './shell.mjs';
 
 /** Each case is the best of this many runs. */
@@ -68,6 +70,7 @@ async function loadMesher() {
 }
 
 await main(async () => {
+  await setup({ browser: false });
   execFileSync('cargo', ['build', '--release', '--example', 'throughput'], { cwd: root, stdio: 'inherit' });
   await buildWasm(['mesher']);
   const mesher = await loadMesher();

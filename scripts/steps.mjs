@@ -45,6 +45,9 @@ async function clippyWasm(options) {
     await must('cargo', ['clippy', '--lib', ...WASM, '--features', features, ...DENY], options);
   }
   await must('cargo', ['clippy', '--test', 'wasm', ...WASM, ...DENY], options);
+  // What `wasm-pack test` builds.
+  const all = ['--bins', '--examples', '--tests'];
+  await must('cargo', ['clippy', ...all, '--target', 'wasm32-unknown-unknown', ...DENY], options);
 }
 
 async function documentation(options) {

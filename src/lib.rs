@@ -1,4 +1,4 @@
-//! **hexmill**: conforming quadrilateral meshes of any surface.
+//! **hexmill**: conforming quadrilateral meshes of any surface, and conforming refinement of hex meshes.
 //!
 //! The crate is one core for three front ends: a page in the browser, an npm package and a command
 //! line. It does no I/O, reads no clock and logs nothing; progress and cancellation come in through
@@ -14,7 +14,7 @@
 //! | [`mesh`] | ids, reference elements, meshes, topology, checks, quality |
 //! | [`template`] | refinement templates as data |
 //! | [`sizing`] | where to refine and how far |
-//! | [`forest`] | quadtrees over unstructured coarse cells, strong balance |
+//! | [`forest`] | quadtrees and octrees over unstructured coarse cells, strong balance, closure |
 //! | [`optimize`] | untangling and smoothing of hexes |
 //! | [`refine`] | conforming refinement (Ebeida, Patney, Owens, Mestreau) |
 //! | [`io`] | bytes in, bytes out: OBJ, VTU, VTK, MSH, INP, MEDIT, GLB |

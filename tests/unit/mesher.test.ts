@@ -14,11 +14,14 @@ import { withLittleMemory } from '../fixtures/small-memory.js';
 
 const SQUARE = 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n';
 
-/** Three squares in a row. */
-const ROW = 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nv 3 1 0\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n';
+/** Ten squares in a row. */
+const ROW = [
+  ...Array.from({ length: 11 }, (_, x) => `v ${x} 0 0\nv ${x} 1 0`),
+  ...Array.from({ length: 10 }, (_, x) => `f ${2 * x + 1} ${2 * x + 3} ${2 * x + 4} ${2 * x + 2}`),
+].join('\n');
 
-/** Enough work on three squares for seconds, so that there is something to cancel: 12.6 million quads. */
-const MUCH: QuadOptions = { levels: 11 };
+/** Enough work on ten squares for most of a second, so that there is something to cancel: 10.5 million quads, nearly all that memory holds. */
+const MUCH: QuadOptions = { levels: 10 };
 
 /** A cancelled call has to leave the processor to the next within this time, in milliseconds. */
 const PROMPT = 200;
@@ -175,15 +178,18 @@ describe.each([1, 2, 4])('on %i threads', (threads) => {
 
   it('says what would not fit, what fits, and what to do, before the work', async () => {
     const start = performance.now();
-    const refusal: Error = await mesher.refineQuads(ROW, { levels: 13, maxLevels: 13 }).then(
+    const tooMuch: QuadOptions = { levels: 13, maxLevels: 13 };
+    const refusal: Error = await mesher.refineQuads(ROW, tooMuch).then(
       () => expect.unreachable(),
       (error) => error,
     );
     expect(performance.now() - start).toBeLessThan(5000);
     const quads = Number(/about (\d+) quads/.exec(refusal.message)?.[1]);
-    expect(quads / (3 * 4 ** 13)).toBeCloseTo(1, 1);
+    expect(quads / (10 * 4 ** 13)).toBeCloseTo(1, 1);
+    const { bytes } = await mesher.estimateQuads(ROW, tooMuch);
+    expect(refusal.message).toContain(`take ${(bytes / 1e9).toFixed(1)} GB`);
     expect(refusal.message).toContain(`which hold ${MOST_QUADS} quads`);
-    expect(refusal.message).toMatch(/22\.1 GB.*1\.\d GB.*larger edge length, fewer levels/);
+    expect(refusal.message).toMatch(/more than the 1\.\d GB.*larger edge length, fewer levels/);
   });
 
   it('recognizes files that have no name', async () => {
@@ -211,7 +217,7 @@ describe.each([1, 2, 4])('on %i threads', (threads) => {
     let isMeshing = true;
     const meshing = mesher.refineQuads(row, { ...MUCH, signal: abort.signal }).finally(() => (isMeshing = false));
     meshing.catch(() => {});
-    expect(await mesher.estimateQuads(row, { levels: 3 })).toMatchObject({ quads: 3 * 64, exact: true });
+    expect(await mesher.estimateQuads(row, { levels: 3 })).toMatchObject({ quads: 10 * 64, exact: true });
     expect(isMeshing).toBe(true);
     abort.abort();
     await expect(meshing).rejects.toMatchObject({ name: 'AbortError' });
