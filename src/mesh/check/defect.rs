@@ -316,7 +316,7 @@ impl std::fmt::Display for Defect {
 }
 
 /// The first few ids in words.
-pub(in crate::mesh) fn listed(ids: &[impl std::fmt::Display]) -> String {
+pub(crate) fn listed(ids: &[impl std::fmt::Display]) -> String {
     const SHOWN: usize = 8;
     let mut words: Vec<String> = ids.iter().take(SHOWN).map(ToString::to_string).collect();
     if ids.len() > SHOWN {

@@ -18,7 +18,7 @@ mod hanging;
 mod hexes;
 mod same_nodes;
 
-pub(super) use defect::listed;
+pub(crate) use defect::listed;
 pub use defect::{Defect, DefectCount, Severity, summary};
 pub use hanging::hanging_nodes;
 pub use hexes::check_hexes;

@@ -48,7 +48,7 @@ pub(super) fn without_template(error: StageError) -> HexRefineError {
     match error {
         StageError::Cancelled(cancelled) => HexRefineError::Cancelled(cancelled),
         StageError::Conflict(hexes) | StageError::Forbidden(hexes) | StageError::NotCouplable(hexes) => {
-            HexRefineError::Tangled(hexes.len())
+            HexRefineError::NoTemplate(hexes.len())
         }
     }
 }

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::stage::{StageMesh, StageReport};
 use crate::Cancelled;
 use crate::forest::{Admits, Closure, admits_method_one};
-use crate::mesh::{HexMesh, InvertedHexes};
+use crate::mesh::check::listed;
+use crate::mesh::{HexId, HexMesh, InvertedHexes};
 use crate::sizing::{Region, SizingError};
 
 /// How refined hexes and coarse ones are joined.
@@ -18,7 +19,8 @@ pub enum Method {
     Two,
     /// 3-refinement: a pillow, then hexes in 27 and a template that needs no groups. Any set.
     Three,
-    /// Method II, or 3-refinement of sets whose interface cannot be grouped two by two.
+    /// Method II, whose families can always be grouped. For a single stage: or 3-refinement of sets whose interface
+    /// cannot be grouped two by two.
     #[default]
     Auto,
 }
@@ -128,6 +130,12 @@ pub enum HexRefineError {
     /// Some hexes of the input are inside out in part.
     #[error(transparent)]
     Inverted(#[from] InvertedHexes),
+    /// Some hexes of the input are flat, or inside out between their corners.
+    #[error(
+        "{} hexes are flat or inside out somewhere within: {}; mend the mesh, for example by smoothing it",
+        .0.len(), listed(.0)
+    )]
+    NotPositive(Vec<HexId>),
     /// An option has a value that cannot be met.
     #[error("{option} is {value}; {wanted}")]
     Option {
@@ -154,6 +162,9 @@ pub enum HexRefineError {
         /// The limit.
         limit: u64,
     },
+    /// There is no template for so many hexes, though the octree was closed for the method: an error of this library.
+    #[error("the method has no template for {0} hexes; use another method, and report the mesh")]
+    NoTemplate(usize),
     /// Transition hexes stay inside out, and there is nothing left to refine beside them.
     #[error(
         "{0} transition hexes cannot be untangled; the mesh's own hexes there are too distorted to be divided"
@@ -172,6 +183,8 @@ impl HexRefineError {
             Self::Sizing(error) => error.code(),
             Self::Option { .. } => "option-out-of-range",
             Self::TooManyHexes { .. } => "too-many-hexes",
+            Self::NotPositive(_) => "mesh-not-positive",
+            Self::NoTemplate(_) => "no-template",
             Self::Tangled(_) => "mesh-tangled",
         }
     }

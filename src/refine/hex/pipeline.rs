@@ -70,7 +70,11 @@ impl HexPlan<'_> {
                     return Ok(RefinedHexes { added: self.added, capped, turned, ..refined });
                 }
                 Outcome::Conflict { depth, elements } => {
-                    self.added.conflicts += self.refine_too(depth, &elements, monitor)?;
+                    let more = self.refine_too(depth, &elements, monitor)?;
+                    if more == 0 {
+                        return Err(HexRefineError::NoTemplate(elements.len()));
+                    }
+                    self.added.conflicts += more;
                 }
                 Outcome::Tangled { depth, elements, hexes } => {
                     let more = self.refine_too(depth, &elements, monitor)?;
@@ -86,6 +90,8 @@ impl HexPlan<'_> {
     /// Step 2.
     fn stages(&self, surface: &BoundarySurface, monitor: &dyn Monitor) -> Result<Outcome, HexRefineError> {
         let (options, input) = (self.options, &self.input);
+        // The octree refines whole families, which can be grouped.
+        let method = if options.method == Method::Auto { Method::Two } else { options.method };
         let mut mesh = StageMesh::of_input(input.positions.clone(), input.hexes.clone());
         let Some(forest) = &self.forest else {
             return Ok(Outcome::Done(RefinedHexes::new(input, mesh)));
@@ -93,7 +99,7 @@ impl HexPlan<'_> {
         let mut reports = Vec::new();
         let last = forest.levels.iter().take_while(|level| !level.refined.is_empty()).count();
         let everything = vec![true; mesh.hexes.len()];
-        mesh = stage(&mesh, &everything, options.method, monitor).map_err(without_template)?.mesh;
+        mesh = stage(&mesh, &everything, method, monitor).map_err(without_template)?.mesh;
         for (depth, level) in forest.levels[..last].iter().enumerate() {
             let monitor = &OfLevel { inner: monitor, depth, last };
             let is_refined = |h: usize| {
@@ -103,7 +109,7 @@ impl HexPlan<'_> {
                     && level.is_refined[element as usize]
             };
             let refined: Vec<bool> = (0..mesh.hexes.len()).map(is_refined).collect();
-            let mut next = match attempt(&mesh, &refined, options.method, surface, monitor)? {
+            let mut next = match attempt(&mesh, &refined, method, surface, monitor)? {
                 Attempt::Made(next) => next,
                 Attempt::Conflict(hexes) => {
                     return Ok(Outcome::Conflict { depth, elements: elements_of(&mesh, &hexes) });

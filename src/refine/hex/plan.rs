@@ -12,7 +12,8 @@ use crate::forest::HexForest;
 use crate::geometry::Point;
 use crate::mesh::check::{Defect, summary};
 use crate::mesh::numbering::hex::EDGES;
-use crate::mesh::{HexMesh, NodeId, check_hexes, orient_hexes};
+use crate::mesh::quality::{Certainty, is_positive};
+use crate::mesh::{HexId, HexMesh, NodeId, check_hexes, orient_hexes};
 use crate::monitor::batches;
 use crate::sizing::{SizeField, SizeOptions, SizedElement};
 use crate::{Monitor, Stage};
@@ -176,7 +177,8 @@ impl Level<'_> {
     }
 }
 
-/// Step 1: the input with its hexes turned the right way, without unused nodes; and how many were turned.
+/// Step 1: the input with its hexes turned the right way, all of them positive inside, without unused nodes; and how
+/// many were turned.
 fn oriented(input: &HexMesh) -> Result<(HexMesh, usize), HexRefineError> {
     if input.hexes.is_empty() {
         return Err(HexRefineError::NoHexes);
@@ -189,6 +191,14 @@ fn oriented(input: &HexMesh) -> Result<(HexMesh, usize), HexRefineError> {
     if !defects.is_empty() {
         let kinds = summary(&defects).iter().map(ToString::to_string).collect();
         return Err(HexRefineError::InvalidInput(kinds));
+    }
+    let is_doubtful = |(h, hex): (usize, &[NodeId; 8])| {
+        let corners = hex.map(|n| mesh.positions[n.index()]);
+        (is_positive(&corners) != Certainty::Positive).then_some(HexId::new(h))
+    };
+    let doubtful: Vec<HexId> = mesh.hexes.par_iter().enumerate().filter_map(is_doubtful).collect();
+    if !doubtful.is_empty() {
+        return Err(HexRefineError::NotPositive(doubtful));
     }
     drop_unused_nodes(&mut mesh);
     Ok((mesh, turned))

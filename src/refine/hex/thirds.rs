@@ -69,7 +69,10 @@ impl HexPlan<'_> {
         loop {
             match attempt(mesh, refined, self.options.method, surface, monitor)? {
                 Attempt::Made(next) => return Ok(*next),
-                Attempt::Conflict(hexes) => self.added.conflicts += add(refined, &hexes),
+                Attempt::Conflict(hexes) => match add(refined, &hexes) {
+                    0 => return Err(HexRefineError::NoTemplate(hexes.len())),
+                    more => self.added.conflicts += more,
+                },
                 Attempt::Tangled { coarse, hexes } => match add(refined, &coarse) {
                     0 => return Err(HexRefineError::Tangled(hexes)),
                     more => self.added.repairs += more,

@@ -1,6 +1,5 @@
 //! From a hex mesh and regions to a conforming, smoothed hex mesh.
 
-use hexmill::Silent;
 use hexmill::geometry::{Aabb, Point};
 use hexmill::mesh::quality::{Certainty, hex_quality};
 use hexmill::mesh::{
@@ -8,6 +7,7 @@ use hexmill::mesh::{
 };
 use hexmill::refine::hex::{HexOptions, HexPlan, HexRefineError, Method, RefinedHexes, refine_hexes};
 use hexmill::sizing::{Region, Shape, Target};
+use hexmill::{Cancelled, Monitor, Silent, Stage};
 
 use super::judge::Numbers;
 
@@ -69,7 +69,7 @@ fn worlds() -> Vec<(&'static str, Vec<Region>, [f64; 2])> {
             vec![block([1.0; 3], [2.0; 3], 2), block([2.0; 3], [3.0; 3], 2)],
             [0.43, 0.35],
         ),
-        ("two levels", vec![block([0.5; 3], [3.5; 3], 2), block([1.5; 3], [2.5; 3], 3)], [0.55, 0.4]),
+        ("two levels", vec![block([0.5; 3], [3.5; 3], 2), block([1.5; 3], [2.5; 3], 3)], [0.55, 0.45]),
         ("at the boundary", vec![block([0.0; 3], [2.0; 3], 2)], [0.55, 0.45]),
     ]
 }
@@ -197,6 +197,10 @@ fn bad_input_and_options_are_refused() {
     let mut folded = cubes(1);
     folded.positions[0] = Point::splat(2.0);
     assert_eq!(code(&folded, &HexOptions::default()), "mesh-inverted");
+    // A hex without height: no corner is inside out, and none is positive.
+    let mut flat = cubes(1);
+    flat.positions.iter_mut().for_each(|p| p.z = 0.0);
+    assert_eq!(code(&flat, &HexOptions::default()), "mesh-not-positive");
     let deep = HexOptions { levels: Some(9), ..HexOptions::default() };
     assert_eq!(code(&cubes(1), &deep), "option-out-of-range");
     let many = HexOptions { levels: Some(8), ..HexOptions::default() };
@@ -206,6 +210,44 @@ fn bad_input_and_options_are_refused() {
         refine_hexes(&cubes(4), &layer, &Silent),
         Err(HexRefineError::TooManyHexes { hexes: 1632, .. })
     ));
+}
+
+#[test]
+fn work_can_be_cancelled() {
+    struct After(std::sync::atomic::AtomicI32);
+    impl Monitor for After {
+        fn progress(&self, _: Stage, _: f64) {}
+        fn cancelled(&self) -> bool {
+            self.0.fetch_sub(1, std::sync::atomic::Ordering::Relaxed) <= 0
+        }
+    }
+    let options = options(Method::Two, vec![block([1.0; 3], [3.0; 3], 2)]);
+    for questions in [0, 1, 3, 10, 30, 100] {
+        let monitor = After(questions.into());
+        let error = refine_hexes(&cubes(4), &options, &monitor).expect_err("it was stopped");
+        assert_eq!(error, HexRefineError::Cancelled(Cancelled), "after {questions} questions");
+    }
+}
+
+#[test]
+fn progress_never_falls_within_a_stage() {
+    struct Record(std::sync::Mutex<Vec<(Stage, f64)>>);
+    impl Monitor for Record {
+        fn progress(&self, stage: Stage, fraction: f64) {
+            self.0.lock().unwrap().push((stage, fraction));
+        }
+        fn cancelled(&self) -> bool {
+            false
+        }
+    }
+    let record = Record(Default::default());
+    let regions = vec![block([0.5; 3], [3.5; 3], 2), block([1.5; 3], [2.5; 3], 3)];
+    refine_hexes(&cubes(4), &options(Method::Two, regions), &record).expect("it can be refined");
+    let told = record.0.into_inner().unwrap();
+    assert!(told.len() > 10 && told.iter().all(|(_, fraction)| (0.0..=1.0).contains(fraction)));
+    for (k, (stage, fraction)) in told.iter().enumerate() {
+        assert!(told[..k].iter().all(|(other, before)| other != stage || before <= fraction), "{stage:?}");
+    }
 }
 
 #[test]
