@@ -3,15 +3,16 @@
 use hexmill::io::{AnyMesh, Document};
 use hexmill::mesh::check::{DefectCount, Severity};
 use hexmill::mesh::topology::hex_boundary;
-use hexmill::mesh::{HexMesh, PolygonMesh, Volumes, check_polygons};
+use hexmill::mesh::{PolygonMesh, Volumes};
 
 use super::args::CheckArgs;
 use super::distance::{Distances, Triangles};
 use super::failure::Failure;
 use super::files::{check_outputs, format_of, load};
+use super::mesh_report::{MeshReport, Topology, quality_table};
 use super::progress::Progress;
 use super::region::{load_triangles, triangles_of};
-use super::report::{Counts, InputReport, MeshReport, Report, Topology, peak_memory_bytes, quality_table};
+use super::report::{InputReport, Report, peak_memory_bytes};
 
 /// Reads a mesh, looks it over and tells; refuses a mesh that does not conform.
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
@@ -24,26 +25,14 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     let mut loaded = progress.stage("read", || load(&args.mesh))?;
     let empty = Document::from(PolygonMesh::default());
     let document = std::mem::replace(&mut loaded.document, empty);
-    let (counts, mesh, surface) = match document.mesh {
-        AnyMesh::Hexes(hexes) => {
-            let mut mesh = progress.stage("measure", || MeshReport::of_hexes(&hexes, &document.level, 0));
-            progress.stage("check", || mesh.check_hexes(&hexes));
-            let rim = args.surface.is_some().then(|| boundary(hexes));
-            (mesh.counts, mesh, rim.unwrap_or_default())
-        }
-        _ => {
-            let level = document.level.clone();
-            let surface = document.into_surface().expect("hexes were taken above");
-            let mut mesh = progress.stage("measure", || MeshReport::of_polygons(&surface, &level));
-            progress.stage("check", || mesh.check(&surface, check_polygons));
-            (Counts::of_polygons(&surface), mesh, surface)
-        }
-    };
-    let mut report = Report::new("check", InputReport::new(&loaded, counts), mesh);
+    let mut mesh = progress.stage("measure", || MeshReport::of(&document, 0));
+    progress.stage("check", || mesh.check(&document.mesh));
+    let mut report = Report::new("check", InputReport::new(&loaded, mesh.counts), mesh);
     report.distance = match &args.surface {
         Some(path) => {
             let (positions, triangles) = progress.stage("read", || load_triangles(path))?;
             let other = Triangles { positions, triangles };
+            let surface = surface_of(document);
             let triangles = triangles_of(&surface, &args.mesh)?;
             let mesh = Triangles { positions: surface.positions, triangles };
             Some(progress.stage("distance", || Distances::between(&mesh, &other)))
@@ -61,8 +50,11 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     verdict(args, &report)
 }
 
-/// The boundary of a hex mesh; nodes inside come along, in no face.
-fn boundary(mesh: HexMesh) -> PolygonMesh {
+/// The faces of a document, or the boundary of its hexes; nodes inside come along, in no face.
+fn surface_of(document: Document) -> PolygonMesh {
+    let AnyMesh::Hexes(mesh) = document.mesh else {
+        return document.into_surface().expect("hexes are told apart here");
+    };
     let mut surface = PolygonMesh::default();
     hex_boundary(&mesh.hexes).into_iter().for_each(|(face, _)| surface.push_face(face));
     surface.positions = mesh.positions;

@@ -7,9 +7,11 @@ mod distance;
 mod failure;
 mod files;
 mod grid;
+mod mesh_report;
 mod progress;
 mod refine;
 mod refine_hexes;
+mod refine_surface;
 mod region;
 mod report;
 

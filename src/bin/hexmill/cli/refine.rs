@@ -1,70 +1,76 @@
 //! `hexmill refine`.
 
+use std::path::Path;
+
 use hexmill::io::{self, AnyMesh, Document};
-use hexmill::mesh::{PolygonMesh, check_quads};
-use hexmill::refine::{QuadOptions, refine_quads};
+use hexmill::mesh::PolygonMesh;
+use hexmill::refine::QuadOptions;
 
 use super::args::RefineArgs;
 use super::failure::Failure;
 use super::files::{check_outputs, format_of, load, save};
+use super::mesh_report::{Counts, MeshReport, quality_table};
 use super::progress::Progress;
-use super::refine_hexes;
-use super::report::{Counts, FileReport, InputReport, MeshReport, OptionsReport, Report, peak_memory_bytes};
+use super::report::{FileReport, HexRefinementReport, InputReport, OptionsReport, Report, peak_memory_bytes};
+use super::{refine_hexes, refine_surface};
+
+/// What a refinement made, and of what.
+pub(super) struct Refined {
+    pub(super) before: Counts,
+    pub(super) document: Document,
+    /// Elements that are larger than asked for.
+    pub(super) capped: usize,
+    pub(super) options: OptionsReport,
+    /// Of hexes.
+    pub(super) work: Option<HexRefinementReport>,
+}
 
 /// Reads, refines, writes and reports.
 pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
-    let output_format = format_of(&args.output)?;
+    let format = format_of(&args.output)?;
     format_of(&args.input)?;
     check_levels(args)?;
-    let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
-    let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
-    let report = args.report.as_deref().map(|path| ("--report", path));
-    let outputs: Vec<_> = std::iter::once(("--output", args.output.as_path())).chain(report).collect();
-    check_outputs(&inputs, &outputs)?;
+    check_files(args)?;
     use_threads(args.threads)?;
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
     let empty = Document::from(PolygonMesh::default());
     let document = std::mem::replace(&mut loaded.document, empty);
-    if matches!(document.mesh, AnyMesh::Hexes(_)) {
-        return refine_hexes::run(args, quiet, &loaded, document, output_format, progress);
-    }
-    if args.method.is_some() || args.max_hexes.is_some() {
-        let message =
-            format!("--method and --max-hexes are for hexes; {} holds a surface", args.input.display());
-        return Err(Failure::Usage(message));
-    }
-    let surface = document.into_surface().expect("hexes were taken above");
-    let input = InputReport::new(&loaded, Counts::of_polygons(&surface));
-    let options = options(args)?;
-    let refined =
-        refine_quads(&surface, &options, &progress).map_err(|e| Failure::refine(&args.input, &e))?;
-    drop(surface);
-    let capped = refined.capped;
-    let document = Document::from(refined);
+    let refined = match document.mesh {
+        AnyMesh::Hexes(_) => refine_hexes::refine(args, document, quiet, &progress),
+        _ => refine_surface::refine(args, document, &progress),
+    };
+    let Refined { before, document, capped, options, work } = refined?;
 
     let bytes = progress
-        .stage("encode", || io::write(&document, output_format))
+        .stage("encode", || io::write(&document, format))
         .map_err(|e| Failure::write(&args.output, &e))?;
     progress.stage("write", || save(&args.output, &bytes))?;
-    let output = FileReport::new(&args.output, output_format, bytes.len() as u64);
+    let output = FileReport::new(&args.output, format, bytes.len() as u64);
     drop(bytes);
 
-    let AnyMesh::Quads(mesh) = &document.mesh else { unreachable!("refinement makes quads") };
-    let mut measured = progress.stage("measure", || MeshReport::of_quads(mesh, &document.level, capped));
+    let mut mesh = progress.stage("measure", || MeshReport::of(&document, capped));
     if args.report.is_some() {
-        progress.stage("check", || measured.check(mesh, check_quads));
+        progress.stage("check", || mesh.check(&document.mesh));
     }
-    let mut report = Report::new("refine", input, measured);
-    report.options = Some(options_report(args, &options));
-    report.output = Some(output);
+    let mut report = Report::new("refine", InputReport::new(&loaded, before), mesh);
+    (report.options, report.refinement, report.output) = (Some(options), work, Some(output));
     (report.stages, report.seconds) = progress.finish();
     report.peak_memory_bytes = peak_memory_bytes();
     if !quiet {
-        print!("{}", in_words(args, &report));
+        print!("{}", in_words(&args.output, &report));
     }
     args.report.as_deref().map_or(Ok(()), |path| report.save(path))
+}
+
+/// Refuses outputs that are inputs, or each other.
+fn check_files(args: &RefineArgs) -> Result<(), Failure> {
+    let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
+    let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
+    let report = args.report.as_deref().map(|path| ("--report", path));
+    let outputs: Vec<_> = std::iter::once(("--output", args.output.as_path())).chain(report).collect();
+    check_outputs(&inputs, &outputs)
 }
 
 /// Refuses more levels than there may be.
@@ -89,45 +95,13 @@ fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
     })
 }
 
-fn options(args: &RefineArgs) -> Result<QuadOptions, Failure> {
-    let default = QuadOptions::default();
-    Ok(QuadOptions {
-        edge_length: args.edge_length,
-        levels: args.levels,
-        regions: args.regions.iter().map(|region| region.load()).collect::<Result<_, _>>()?,
-        curvature: args.curvature,
-        gradation: args.gradation.unwrap_or(default.gradation),
-        keep_coarse: args.keep_coarse,
-        max_levels: args.max_levels.unwrap_or(default.max_levels),
-        max_quads: args.max_quads.unwrap_or(default.max_quads),
-    })
-}
-
-/// The options, with regions as they were given: their files may be large.
-fn options_report(args: &RefineArgs, options: &QuadOptions) -> OptionsReport {
-    OptionsReport {
-        edge_length: options.edge_length,
-        levels: options.levels,
-        regions: args.regions.iter().map(|region| region.text.clone()).collect(),
-        curvature: options.curvature,
-        gradation: options.gradation,
-        keep_coarse: options.keep_coarse,
-        max_levels: options.max_levels,
-        max_quads: Some(options.max_quads),
-        max_hexes: None,
-        method: None,
-    }
-}
-
 /// What was made, for people.
-pub(super) fn in_words(args: &RefineArgs, report: &Report) -> String {
+fn in_words(path: &Path, report: &Report) -> String {
     let mesh = &report.mesh;
     let levels: Vec<String> =
         mesh.levels.iter().map(|count| format!("{} of level {}", count.cells, count.level)).collect();
-    let mut lines = vec![
-        format!("{}: {}", args.output.display(), mesh.counts.in_words()),
-        format!("  {}", levels.join(", ")),
-    ];
+    let mut lines =
+        vec![format!("{}: {}", path.display(), mesh.counts.in_words()), format!("  {}", levels.join(", "))];
     if mesh.capped > 0 {
         lines.push(format!(
             "  {} elements are larger than asked for: raise --max-levels, now {}",
@@ -135,7 +109,7 @@ pub(super) fn in_words(args: &RefineArgs, report: &Report) -> String {
             report.options.as_ref().map_or(0, |o| o.max_levels)
         ));
     }
-    lines.extend(mesh.quality.as_ref().map(super::report::quality_table));
+    lines.extend(mesh.quality.as_ref().map(quality_table));
     lines.push(format!("  hash {}, {:.2} s", mesh.hash, report.seconds));
     lines.join("\n") + "\n"
 }

@@ -1,65 +1,42 @@
 //! `hexmill refine` of a hex mesh.
 
-use hexmill::io::{self, AnyMesh, Document, Format};
+use hexmill::io::{AnyMesh, Document};
 use hexmill::refine::hex::{Added, HexOptions, HexPlan, HexRefineError};
 
 use super::args::RefineArgs;
 use super::failure::Failure;
-use super::files::{Loaded, save};
+use super::mesh_report::Counts;
 use super::progress::Progress;
-use super::refine::in_words;
-use super::report::{
-    Counts, FileReport, HexRefinementReport, InputReport, MeshReport, OptionsReport, Report,
-    peak_memory_bytes,
-};
+use super::refine::Refined;
+use super::report::{HexRefinementReport, OptionsReport};
 
-/// Refines the hexes of `document`, which was read from `loaded`, writes and reports.
-pub(super) fn run(
+/// Refines the hexes of `document`; tells before what will be done, unless `quiet`.
+pub(super) fn refine(
     args: &RefineArgs,
-    quiet: bool,
-    loaded: &Loaded,
     document: Document,
-    format: Format,
-    progress: Progress,
-) -> Result<(), Failure> {
+    quiet: bool,
+    progress: &Progress,
+) -> Result<Refined, Failure> {
     let Document { mesh: AnyMesh::Hexes(mut mesh), tags, .. } = document else { unreachable!("hexes") };
     mesh.tags = tags;
     let options = options(args)?;
-    let input = InputReport::new(loaded, Counts::of_hexes(&mesh));
+    let before = Counts::of_hexes(&mesh);
     let refused = |error: HexRefineError| refused(args, &error);
-    let plan = HexPlan::new(&mesh, &options, &progress).map_err(refused)?;
+    let plan = HexPlan::new(&mesh, &options, progress).map_err(refused)?;
     drop(mesh);
     if !quiet {
         eprint!("{}", plan_in_words(&plan));
     }
-    let refined = plan.carry_out(&progress).map_err(refused)?;
-    let capped = refined.capped;
+    let refined = plan.carry_out(progress).map_err(refused)?;
     let work =
         HexRefinementReport { added: refined.added, turned: refined.turned, levels: refined.stages.clone() };
-    let document = Document::from(refined);
-
-    let bytes = progress
-        .stage("encode", || io::write(&document, format))
-        .map_err(|e| Failure::write(&args.output, &e))?;
-    progress.stage("write", || save(&args.output, &bytes))?;
-    let output = FileReport::new(&args.output, format, bytes.len() as u64);
-    drop(bytes);
-
-    let AnyMesh::Hexes(mesh) = &document.mesh else { unreachable!("refinement of hexes makes hexes") };
-    let mut measured = progress.stage("measure", || MeshReport::of_hexes(mesh, &document.level, capped));
-    if args.report.is_some() {
-        progress.stage("check", || measured.check_hexes(mesh));
-    }
-    let mut report = Report::new("refine", input, measured);
-    report.options = Some(options_report(args, &options));
-    report.refinement = Some(work);
-    report.output = Some(output);
-    (report.stages, report.seconds) = progress.finish();
-    report.peak_memory_bytes = peak_memory_bytes();
-    if !quiet {
-        print!("{}", in_words(args, &report));
-    }
-    args.report.as_deref().map_or(Ok(()), |path| report.save(path))
+    Ok(Refined {
+        before,
+        capped: refined.capped,
+        document: Document::from(refined),
+        options: options_report(args, &options),
+        work: Some(work),
+    })
 }
 
 /// The options; those for surfaces alone are refused.

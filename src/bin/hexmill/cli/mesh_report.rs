@@ -1,0 +1,220 @@
+//! What is known of a mesh: a part of every command's record, and its lines for people.
+
+use hexmill::geometry::Aabb;
+use hexmill::io::{AnyMesh, Document};
+use hexmill::mesh::check::{DefectCount, summary};
+use hexmill::mesh::quality::{Distribution, HexQualityReport, QualityReport, hex_quality, quad_quality};
+use hexmill::mesh::topology::{HexEdges, HexFaces, HexReport, SurfaceReport, hex_report, surface_report};
+use hexmill::mesh::{
+    Defect, Edges, Faces, HexMesh, MeshHash, NodeId, PolygonMesh, QuadMesh, Volumes, check_hexes,
+    check_polygons, check_quads, mesh_hash, polygon_hash,
+};
+use serde::Serialize;
+
+/// Defects that are listed one by one; all of them are counted.
+const LISTED_DEFECTS: usize = 1000;
+
+/// How many of what.
+#[derive(Clone, Copy, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Counts {
+    pub(crate) nodes: usize,
+    pub(crate) faces: usize,
+    pub(crate) triangles: usize,
+    pub(crate) quads: usize,
+    pub(crate) polygons: usize,
+    pub(crate) hexes: usize,
+    bounds: Option<Bounds>,
+}
+
+/// The smallest box around the nodes.
+#[derive(Clone, Copy, Serialize)]
+struct Bounds {
+    min: [f64; 3],
+    max: [f64; 3],
+}
+
+impl Counts {
+    pub(crate) fn of_polygons(mesh: &PolygonMesh) -> Self {
+        let of_size = |n: usize| mesh.faces().filter(|f| f.len() == n).count();
+        let (faces, triangles, quads) = (mesh.face_count(), of_size(3), of_size(4));
+        let polygons = faces - triangles - quads;
+        Self { faces, triangles, quads, polygons, ..Self::of_nodes(mesh.positions.len(), mesh.bounds()) }
+    }
+
+    fn of_quads(mesh: &QuadMesh) -> Self {
+        let quads = mesh.quads.len();
+        Self { faces: quads, quads, ..Self::of_nodes(mesh.positions.len(), mesh.bounds()) }
+    }
+
+    pub(crate) fn of_hexes(mesh: &HexMesh) -> Self {
+        Self { hexes: mesh.hexes.len(), ..Self::of_nodes(mesh.positions.len(), mesh.bounds()) }
+    }
+
+    fn of_nodes(nodes: usize, around: Aabb) -> Self {
+        Self { nodes, faces: 0, triangles: 0, quads: 0, polygons: 0, hexes: 0, bounds: bounds(around) }
+    }
+
+    /// In words, such as `8 nodes, 6 quads`.
+    pub(crate) fn in_words(&self) -> String {
+        let mut words = vec![format!("{} nodes", self.nodes)];
+        let kinds = [
+            (self.triangles, "triangles"),
+            (self.quads, "quads"),
+            (self.polygons, "larger polygons"),
+            (self.hexes, "hexes"),
+        ];
+        words.extend(kinds.iter().filter(|(n, _)| *n > 0).map(|(n, kind)| format!("{n} {kind}")));
+        if self.faces == 0 && self.hexes == 0 {
+            words.push("no faces".to_owned());
+        }
+        words.join(", ")
+    }
+}
+
+fn bounds(of: Aabb) -> Option<Bounds> {
+    (!of.is_empty()).then(|| Bounds { min: of.min.to_array(), max: of.max.to_array() })
+}
+
+/// Everything known of a mesh.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct MeshReport {
+    #[serde(flatten)]
+    pub(crate) counts: Counts,
+    pub(crate) hash: MeshHash,
+    pub(crate) levels: Vec<LevelCount>,
+    pub(crate) capped: usize,
+    pub(crate) quality: Option<Quality>,
+    /// Of hexes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) volume: Option<Volumes>,
+    /// Filled in by [`MeshReport::check`].
+    pub(crate) topology: Option<Topology>,
+    /// Filled in by [`MeshReport::check`].
+    pub(crate) defects: Option<Defects>,
+}
+
+/// How good the cells of a mesh are.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(crate) enum Quality {
+    Quads(QualityReport),
+    Hexes(HexQualityReport),
+}
+
+/// What kind of surface or solid a mesh is.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(crate) enum Topology {
+    Surface(SurfaceReport),
+    Solid(HexReport),
+}
+
+/// How many cells are of a level.
+#[derive(Serialize)]
+pub(crate) struct LevelCount {
+    pub(crate) level: u8,
+    pub(crate) cells: usize,
+}
+
+/// What is wrong with a mesh.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Defects {
+    /// True if nothing of severity `error` was found.
+    pub(crate) conforming: bool,
+    pub(crate) counts: Vec<DefectCount>,
+    list: Vec<Defect>,
+}
+
+impl Defects {
+    fn new(mut defects: Vec<Defect>) -> Self {
+        let counts = summary(&defects);
+        let conforming = !defects.iter().any(Defect::is_error);
+        defects.sort_by_key(|defect| std::cmp::Reverse(defect.severity()));
+        defects.truncate(LISTED_DEFECTS);
+        Self { conforming, counts, list: defects }
+    }
+}
+
+impl MeshReport {
+    /// Measures the mesh of a document. Quality is that of its quads or hexes.
+    pub(crate) fn of(document: &Document, capped: usize) -> Self {
+        let (counts, hash, quality, volume) = match &document.mesh {
+            AnyMesh::Polygons(mesh) => {
+                let quality = quad_quality(&quads_of(mesh)).report().map(Quality::Quads);
+                (Counts::of_polygons(mesh), polygon_hash(mesh), quality, None)
+            }
+            AnyMesh::Quads(mesh) => {
+                let quality = quad_quality(mesh).report().map(Quality::Quads);
+                (Counts::of_quads(mesh), mesh_hash(&mesh.positions, &mesh.quads), quality, None)
+            }
+            AnyMesh::Hexes(mesh) => {
+                let quality = hex_quality(mesh).report().map(Quality::Hexes);
+                let hash = mesh_hash(&mesh.positions, &mesh.hexes);
+                (Counts::of_hexes(mesh), hash, quality, Volumes::of(mesh))
+            }
+        };
+        let levels = levels(&document.level);
+        Self { counts, hash, levels, capped, quality, volume, topology: None, defects: None }
+    }
+
+    /// Adds what kind of surface or solid the mesh is, and its defects: the slow part.
+    pub(crate) fn check(&mut self, mesh: &AnyMesh) {
+        let (topology, defects) = match mesh {
+            AnyMesh::Polygons(mesh) => (surface_topology(mesh), check_polygons(mesh)),
+            AnyMesh::Quads(mesh) => (surface_topology(mesh), check_quads(mesh)),
+            AnyMesh::Hexes(mesh) => (solid_topology(mesh), check_hexes(mesh)),
+        };
+        self.topology = Some(topology);
+        self.defects = Some(Defects::new(defects));
+    }
+}
+
+fn surface_topology<M: Faces>(mesh: &M) -> Topology {
+    Topology::Surface(surface_report(mesh, &Edges::of(mesh)))
+}
+
+fn solid_topology(mesh: &HexMesh) -> Topology {
+    let (count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
+    Topology::Solid(hex_report(mesh, &HexFaces::of(count, hexes), &HexEdges::of(count, hexes)))
+}
+
+/// The quads of a polygon mesh.
+fn quads_of(mesh: &PolygonMesh) -> QuadMesh {
+    let quads = mesh.faces().filter_map(|face| <[NodeId; 4]>::try_from(face).ok()).collect();
+    QuadMesh { positions: mesh.positions.clone(), quads }
+}
+
+fn levels(level: &[u8]) -> Vec<LevelCount> {
+    let mut cells = [0_usize; 256];
+    for &l in level {
+        cells[usize::from(l)] += 1;
+    }
+    (0..=255).zip(cells).filter(|(_, n)| *n > 0).map(|(level, cells)| LevelCount { level, cells }).collect()
+}
+
+/// A distribution's ends and mean in a line of a table.
+pub(crate) fn quality_line(name: &str, values: &Distribution) -> String {
+    let s = &values.summary;
+    format!("  {name:<16} {:>9.3} {:>9.3} {:>9.3} {:>9.3}", s.min, s.percentile_1, s.mean, s.max)
+}
+
+/// The quality of a mesh as a table.
+pub(crate) fn quality_table(quality: &Quality) -> String {
+    let mut lines = vec![format!("  {:<16} {:>9} {:>9} {:>9} {:>9}", "quality", "min", "1%", "mean", "max")];
+    match quality {
+        Quality::Quads(quality) => lines.extend([
+            quality_line("scaled Jacobian", &quality.scaled_jacobian),
+            quality_line("least angle", &quality.min_angle),
+            quality_line("greatest angle", &quality.max_angle),
+            quality_line("aspect", &quality.aspect),
+        ]),
+        Quality::Hexes(quality) => lines.extend([
+            quality_line("scaled Jacobian", &quality.scaled_jacobian),
+            quality_line("aspect", &quality.aspect),
+        ]),
+    }
+    lines.join("\n")
+}

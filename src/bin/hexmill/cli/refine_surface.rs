@@ -1,0 +1,60 @@
+//! `hexmill refine` of a surface.
+
+use hexmill::io::Document;
+use hexmill::refine::{QuadOptions, refine_quads};
+
+use super::args::RefineArgs;
+use super::failure::Failure;
+use super::mesh_report::Counts;
+use super::progress::Progress;
+use super::refine::Refined;
+use super::report::OptionsReport;
+
+/// Refines the faces of `document`.
+pub(super) fn refine(args: &RefineArgs, document: Document, progress: &Progress) -> Result<Refined, Failure> {
+    if args.method.is_some() || args.max_hexes.is_some() {
+        let message =
+            format!("--method and --max-hexes are for hexes; {} holds a surface", args.input.display());
+        return Err(Failure::Usage(message));
+    }
+    let surface = document.into_surface().expect("the document holds faces");
+    let options = options(args)?;
+    let refined = refine_quads(&surface, &options, progress).map_err(|e| Failure::refine(&args.input, &e))?;
+    Ok(Refined {
+        before: Counts::of_polygons(&surface),
+        capped: refined.capped,
+        document: Document::from(refined),
+        options: options_report(args, &options),
+        work: None,
+    })
+}
+
+fn options(args: &RefineArgs) -> Result<QuadOptions, Failure> {
+    let default = QuadOptions::default();
+    Ok(QuadOptions {
+        edge_length: args.edge_length,
+        levels: args.levels,
+        regions: args.regions.iter().map(|region| region.load()).collect::<Result<_, _>>()?,
+        curvature: args.curvature,
+        gradation: args.gradation.unwrap_or(default.gradation),
+        keep_coarse: args.keep_coarse,
+        max_levels: args.max_levels.unwrap_or(default.max_levels),
+        max_quads: args.max_quads.unwrap_or(default.max_quads),
+    })
+}
+
+/// The options, with regions as they were given: their files may be large.
+fn options_report(args: &RefineArgs, options: &QuadOptions) -> OptionsReport {
+    OptionsReport {
+        edge_length: options.edge_length,
+        levels: options.levels,
+        regions: args.regions.iter().map(|region| region.text.clone()).collect(),
+        curvature: options.curvature,
+        gradation: options.gradation,
+        keep_coarse: options.keep_coarse,
+        max_levels: options.max_levels,
+        max_quads: Some(options.max_quads),
+        max_hexes: None,
+        method: None,
+    }
+}
