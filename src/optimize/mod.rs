@@ -8,8 +8,8 @@
 //! 3. `untangle`: cells that are not positive are pushed open by a regularised energy;
 //! 4. `smooth`: shape first, then more and more the worst corners alone.
 //!
-//! Promises: a step never makes a positive cell not positive (at its corners, and inside by Bernstein's bound), and
-//! never lowers the worst scaled Jacobian, once untangled. Nodes that are not movable do not move. The same bytes for
+//! Promises: once all are untangled, no cell stops being positive (at its corners, and inside by Bernstein's bound), and
+//! the worst scaled Jacobian never falls. Nodes that are not movable do not move. The same bytes for
 //! any number of threads. Time is linear in the cells around movable nodes, but for one pass over all hexes.
 //!
 //! Refuses nothing: cells that stay inverted are listed in the report, for the caller to repair.
@@ -45,7 +45,7 @@ pub struct OptimizeOptions {
 
 impl Default for OptimizeOptions {
     fn default() -> Self {
-        Self { target: 0.75, untangle_sweeps: 200, smooth_sweeps: 8 }
+        Self { target: 0.75, untangle_sweeps: 200, smooth_sweeps: 5 }
     }
 }
 

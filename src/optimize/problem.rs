@@ -27,6 +27,8 @@ pub(super) struct Problem<'a> {
     pub(super) volume: Vec<f64>,
     /// The cells that are positive in all of their inside.
     pub(super) positive: Vec<bool>,
+    /// The cells whose inside is looked at whenever one of their nodes moves.
+    pub(super) guarded: Vec<bool>,
     /// Where the cells of each movable node start in `around`: a cell, and which of its corners the node is.
     starts: Vec<u32>,
     around: Vec<(u32, u8)>,
@@ -70,6 +72,7 @@ impl<'a> Problem<'a> {
             hexes: touched.into_iter().map(HexId::new).collect(),
             volume: cells.par_iter().map(|cell| cell_size(&cell.map(|n| points[n as usize]))).collect(),
             positive: Vec::new(),
+            guarded: vec![false; cells.len()],
             colours: Vec::new(),
             nodes,
             points,
@@ -99,17 +102,28 @@ impl<'a> Problem<'a> {
 
     /// Asks every cell again whether it is positive.
     pub(super) fn find_positive(&mut self) {
-        self.positive = (0..self.cells.len())
-            .into_par_iter()
-            .with_min_len(LANE)
-            .map(|cell| is_positive(&self.corners(cell)) == Certainty::Positive)
-            .collect();
+        let cells = (0..self.cells.len()).into_par_iter().with_min_len(LANE);
+        self.positive = cells.map(|cell| self.is_positive(cell)).collect();
+    }
+
+    /// Is the cell positive in all of its inside, where its nodes are now?
+    pub(super) fn is_positive(&self, cell: usize) -> bool {
+        is_positive(&self.corners(cell)) == Certainty::Positive
     }
 
     /// The scaled Jacobian of each cell.
     pub(super) fn scaled_jacobians(&self) -> Vec<f64> {
         let cells = (0..self.cells.len()).into_par_iter().with_min_len(LANE);
         cells.map(|cell| scaled_jacobian(&self.corners(cell))).collect()
+    }
+
+    /// The cells around the nodes, each once, ascending.
+    pub(super) fn cells_around(&self, nodes: &[u32]) -> Vec<u32> {
+        let mut is_near = vec![false; self.cells.len()];
+        for &node in nodes {
+            self.star(node).iter().for_each(|&(cell, _)| is_near[cell as usize] = true);
+        }
+        (0..self.cells.len() as u32).filter(|&cell| is_near[cell as usize]).collect()
     }
 
     /// How the cells are now.

@@ -1,22 +1,38 @@
 //! Improves positive cells, the worst above all.
 //!
-//! 1. Stages whose energy weighs shape first, then angles, in growing powers: what a high power sums is hardly more
+//! 1. Courses whose energy weighs shape first, then angles, in growing powers: what a high power sums is hardly more
 //!    than its greatest term, the worst corner.
-//! 2. Each stage moves the nodes of the cells below its target alone.
+//! 2. Each course moves the nodes of the cells below its target alone, and those a ring around.
+//! 3. No round lowers the worst scaled Jacobian. Cells are kept positive inside by looking at them after each round,
+//!    and where one was lost by making the round again, with that cell guarded at each of its nodes' steps.
+
+use rayon::prelude::*;
 
 use super::energy::Weights;
 use super::problem::Problem;
-use super::sweep::{Rules, sweep};
+use super::sweep::{LANE, Moved, Rules, sweep};
 use super::{OptimizeOptions, SMOOTHING};
+use crate::mesh::quality::scaled_jacobian;
 use crate::{Cancelled, Monitor};
 
-/// The stages' energies. Shape has a share in each: angles alone would be best with edges of no length.
-const COURSES: [Weights; 4] = [
-    Weights { doublings: 0, mu: 0.0 },
-    Weights { doublings: 1, mu: 0.3 },
-    Weights { doublings: 2, mu: 0.999 },
-    Weights { doublings: 3, mu: 0.99999 },
+/// Rounds with one energy.
+struct Course {
+    weights: Weights,
+    /// The course's target is so much below that of the options.
+    below: f64,
+}
+
+/// Shape has a share in each course: angles alone would be best with edges of no length. The high powers, which few
+/// cells far above the worst notice, are for the lower ones.
+const COURSES: [Course; 4] = [
+    Course { weights: Weights { doublings: 0, mu: 0.0 }, below: 0.0 },
+    Course { weights: Weights { doublings: 1, mu: 0.3 }, below: 0.0 },
+    Course { weights: Weights { doublings: 2, mu: 0.999 }, below: 0.05 },
+    Course { weights: Weights { doublings: 3, mu: 0.99999 }, below: 0.05 },
 ];
+
+/// Cells whose scaled Jacobian is below this are guarded from the first: those above are hardly ever lost.
+const GUARDED: f64 = 0.2;
 
 /// Rings of cells around those below the target whose nodes move too.
 const RINGS: usize = 1;
@@ -28,26 +44,91 @@ pub(super) fn smooth(
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let total = (COURSES.len() * options.smooth_sweeps) as f64;
+    let mut jacobians = problem.scaled_jacobians();
     let mut done = 0;
-    for (index, weights) in COURSES.into_iter().enumerate() {
-        let jacobians = problem.scaled_jacobians();
-        let below: Vec<usize> = (0..jacobians.len()).filter(|&c| jacobians[c] < options.target).collect();
+    for (index, Course { weights, below }) in COURSES.into_iter().enumerate() {
+        let target = options.target - below;
+        let below: Vec<usize> = (0..jacobians.len()).filter(|&c| jacobians[c] < target).collect();
         if below.is_empty() {
             continue;
         }
         let allowed = problem.rings_around(&below, RINGS);
         let mut awake = allowed.clone();
+        problem.guarded = jacobians.iter().map(|&jacobian| jacobian < GUARDED).collect();
         for round in 0..options.smooth_sweeps {
             monitor.checkpoint(SMOOTHING, (index * options.smooth_sweeps + round) as f64 / total)?;
-            let worst = problem.scaled_jacobians().into_iter().fold(f64::INFINITY, f64::min);
-            problem.find_positive();
+            let worst = jacobians.iter().copied().fold(f64::INFINITY, f64::min);
             let rules = Rules { weights, eps: 0.0, floor: Some(worst) };
+            let moved = keep_positive(problem, &mut awake, |problem, awake| {
+                sweep(problem, rules, &allowed, awake, monitor)
+            })?;
+            let changed = problem.cells_around(&moved.nodes);
+            let renewed: Vec<f64> = changed
+                .par_iter()
+                .with_min_len(LANE)
+                .map(|&cell| scaled_jacobian(&problem.corners(cell as usize)))
+                .collect();
+            changed.iter().zip(renewed).for_each(|(&cell, jacobian)| jacobians[cell as usize] = jacobian);
             done += 1;
-            if sweep(problem, rules, &allowed, &mut awake, monitor)? == 0 {
+            if moved.far == 0 {
                 break;
             }
         }
     }
     monitor.checkpoint(SMOOTHING, 1.0)?;
     Ok(done)
+}
+
+/// Makes a round, again and again until every cell that was positive inside still is: those that were lost are guarded
+/// the next time.
+fn keep_positive(
+    problem: &mut Problem,
+    awake: &mut Vec<bool>,
+    mut round: impl FnMut(&mut Problem, &mut [bool]) -> Result<Moved, Cancelled>,
+) -> Result<Moved, Cancelled> {
+    let before = (problem.points.clone(), awake.clone());
+    loop {
+        let moved = round(problem, awake)?;
+        let lost: Vec<u32> = problem
+            .cells_around(&moved.nodes)
+            .into_par_iter()
+            .with_min_len(LANE)
+            .filter(|&cell| problem.positive[cell as usize] && !problem.is_positive(cell as usize))
+            .collect();
+        if lost.is_empty() {
+            return Ok(moved);
+        }
+        lost.into_iter().for_each(|cell| problem.guarded[cell as usize] = true);
+        problem.points.clone_from(&before.0);
+        awake.clone_from(&before.1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::mesh::NodeId;
+    use crate::mesh::numbering::hex::CORNERS;
+    use crate::optimize::Constraints;
+
+    /// A round that loses a cell is made again from where the nodes were, with the cell guarded.
+    #[test]
+    fn a_cell_that_was_lost_is_guarded() {
+        let positions = CORNERS.map(|c| Point::from(c.map(f64::from)));
+        let hexes = [[0, 1, 2, 3, 4, 5, 6, 7].map(NodeId)];
+        let constraints = Constraints::none(8);
+        let mut problem = Problem::new(&positions, &hexes, &[true; 8], &constraints);
+        let mut awake = vec![true; 8];
+        let mut starts = Vec::new();
+        let moved = keep_positive(&mut problem, &mut awake, |problem, awake| {
+            starts.push((problem.points[6], awake[6], problem.guarded[0]));
+            awake[6] = false;
+            problem.points[6] = if problem.guarded[0] { Point::splat(0.9) } else { Point::splat(-1.0) };
+            Ok(Moved { nodes: vec![6], far: 1 })
+        });
+        assert_eq!(moved.unwrap().nodes, [6]);
+        assert_eq!(starts, [(Point::ONE, true, false), (Point::ONE, true, true)]);
+        assert_eq!(problem.points[6], Point::splat(0.9));
+    }
 }

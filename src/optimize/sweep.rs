@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::energy::{Expansion, Weights};
 use super::problem::Problem;
-use super::star::Star;
+use super::star::{Reading, Star};
 use super::symmetric::Symmetric;
 use crate::geometry::Point;
 use crate::{Cancelled, Monitor};
@@ -19,7 +19,11 @@ const BATCH: usize = 4096;
 const LONGEST: f64 = 0.5;
 
 /// A step below this share of the node's mean edge wakes no neighbours.
-const ASLEEP: f64 = 2e-3;
+const ASLEEP: f64 = 5e-3;
+
+/// The first step tried, in units of Newton's: what one node gains by the longer step is little less, and what is to
+/// wander through many nodes, such as the thickness of a layer, gets there in half the rounds.
+const OVERRELAXATION: f64 = 1.8;
 
 /// How often a step is halved before the node stays.
 const HALVINGS: usize = 6;
@@ -36,15 +40,15 @@ pub(super) struct Rules {
 }
 
 /// Moves the nodes that are `awake`, colour by colour. A node falls asleep when it hardly moves, and wakes its
-/// neighbours among the `allowed` when it does. The number of nodes that moved.
+/// neighbours among the `allowed` when it does. The nodes that moved, and how many of them far.
 pub(super) fn sweep(
     problem: &mut Problem,
     rules: Rules,
     allowed: &[bool],
     awake: &mut [bool],
     monitor: &dyn Monitor,
-) -> Result<usize, Cancelled> {
-    let mut moved = 0;
+) -> Result<Moved, Cancelled> {
+    let mut moved = Moved::default();
     for colour in 0..problem.colours.len() {
         let nodes: Vec<u32> =
             problem.colours[colour].iter().copied().filter(|&n| awake[n as usize]).collect();
@@ -61,14 +65,23 @@ pub(super) fn sweep(
                 awake[node as usize] = false;
                 let Some(step) = step else { continue };
                 problem.points[node as usize] = step.to;
+                moved.nodes.push(node);
                 if step.far {
-                    moved += 1;
+                    moved.far += 1;
                     wake(problem, node, allowed, awake);
                 }
             }
         }
     }
     Ok(moved)
+}
+
+/// What a round did.
+#[derive(Debug, Default)]
+pub(super) struct Moved {
+    pub(super) nodes: Vec<u32>,
+    /// How many of the nodes moved so far that it matters to their neighbours.
+    pub(super) far: usize,
 }
 
 /// Wakes the node and those that share a cell with it.
@@ -93,21 +106,18 @@ struct Step {
 fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Option<Step> {
     star.gather(problem, node, rules.eps);
     let from = problem.points[node as usize];
-    let here = star.expand(from, rules.weights);
-    if !here.value.is_finite() {
-        return None;
-    }
+    let (here, worst) = star.expand(from, rules.weights)?;
     let (id, anchor) = (problem.nodes[node as usize], problem.anchors[node as usize]);
     let size = star.size;
     let step = newton(here, problem.constraints.tangent(id, from), size)?;
-    let kept = rules.floor.map(|floor| star.worst(from).min(floor));
+    let kept = rules.floor.map(|floor| worst_kept(worst, floor));
     let at = |share: f64| problem.constraints.project(id, anchor, from + step * share);
     let mut lowered = |to: Point, limit: f64| {
-        let energy = star.energy(to, rules.weights, limit);
-        let keeps = |kept: f64| star.worst(to) >= kept && star.stays_positive(to);
+        let Reading { energy, worst } = star.read(to, rules.weights, limit)?;
+        let keeps = |kept: f64| worst <= kept && star.stays_positive(to);
         (energy < limit && kept.is_none_or(keeps)).then_some(energy)
     };
-    let (mut share, mut best) = (1.0, lowered(at(1.0), here.value));
+    let (mut share, mut best) = (OVERRELAXATION, lowered(at(OVERRELAXATION), here.value));
     for _ in 1..HALVINGS {
         if best.is_some() {
             break;
@@ -125,17 +135,27 @@ fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Optio
     Some(Step { to, far: to.distance(from) > ASLEEP * size })
 }
 
+/// The greatest r^2 that a node's corners may have, of which the greatest is `worst`: the scaled Jacobian may fall, but
+/// not below the floor. A little less than that, so that no rounding lowers the worst of all.
+fn worst_kept(worst: f64, floor: f64) -> f64 {
+    let at_floor = if floor > 0.0 { 1.0 / (floor * floor) } else { f64::INFINITY };
+    worst.max(at_floor) * (1.0 - 1e-12)
+}
+
 /// Newton's step within the tangent space; where the energy is not convex, with as much of the identity added as
 /// makes it so.
 fn newton(energy: Expansion, tangent: Symmetric, size: f64) -> Option<Point> {
-    let gradient = tangent.times(energy.gradient);
-    let within = energy.hessian.between(tangent);
     let scale = energy.hessian.diagonal.abs().element_sum();
-    // Directions out of the tangent space get the identity, and the gradient has no part in them.
-    let outside = (Symmetric::IDENTITY + tangent * -1.0) * scale;
+    let (gradient, hessian) = if tangent == Symmetric::IDENTITY {
+        (energy.gradient, energy.hessian)
+    } else {
+        // Directions out of the tangent space get the identity, and the gradient has no part in them.
+        let outside = (Symmetric::IDENTITY + tangent * -1.0) * scale;
+        (tangent.times(energy.gradient), energy.hessian.between(tangent) + outside)
+    };
     let mut added = 0.0;
     for _ in 0..8 {
-        let matrix = within + outside + Symmetric::IDENTITY * (added * scale);
+        let matrix = hessian + Symmetric::IDENTITY * (added * scale);
         if let Some(step) = matrix.solve(-gradient) {
             let length = step.length();
             let longest = LONGEST * size;

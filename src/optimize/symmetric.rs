@@ -15,8 +15,18 @@ impl Symmetric {
     pub(super) const IDENTITY: Self = Self { diagonal: Point::ONE, beside: Point::ZERO };
 
     /// `v` times its transpose.
+    #[inline]
     pub(super) fn outer(v: Point) -> Self {
         Self { diagonal: v * v, beside: Point::new(v.y * v.z, v.x * v.z, v.x * v.y) }
+    }
+
+    /// `v w^T + w v^T`.
+    #[inline]
+    pub(super) fn mixed(v: Point, w: Point) -> Self {
+        Self {
+            diagonal: v * w * 2.0,
+            beside: Point::new(v.y * w.z + v.z * w.y, v.x * w.z + v.z * w.x, v.x * w.y + v.y * w.x),
+        }
     }
 
     pub(super) fn trace(self) -> f64 {
@@ -70,12 +80,14 @@ impl Symmetric {
 
 impl Add for Symmetric {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         Self { diagonal: self.diagonal + other.diagonal, beside: self.beside + other.beside }
     }
 }
 
 impl AddAssign for Symmetric {
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
@@ -83,6 +95,7 @@ impl AddAssign for Symmetric {
 
 impl Mul<f64> for Symmetric {
     type Output = Self;
+    #[inline]
     fn mul(self, factor: f64) -> Self {
         Self { diagonal: self.diagonal * factor, beside: self.beside * factor }
     }
@@ -104,6 +117,14 @@ mod tests {
         assert_eq!((Symmetric::IDENTITY * -1.0).solve(Point::X), None);
         assert_eq!(Symmetric::outer(Point::ONE).solve(Point::X), None, "singular");
         assert_eq!((Symmetric::IDENTITY * f64::NAN).solve(Point::X), None);
+    }
+
+    #[test]
+    fn mixes_what_outer_squares() {
+        let (v, w) = (Point::new(1.0, -2.0, 0.5), Point::new(0.3, 1.0, 4.0));
+        let both = Symmetric::outer(v + w) + Symmetric::outer(v - w) * -1.0;
+        let mixed = Symmetric::mixed(v, w) * 2.0;
+        assert!(both.diagonal.distance(mixed.diagonal) + both.beside.distance(mixed.beside) < 1e-14);
     }
 
     #[test]
