@@ -27,11 +27,17 @@ pub struct MeshPipeline {
 pub struct MeshDrawable {
     uniform: Buffer,
     settings: Settings,
-    colours: DataTexture,
+    positions: DataTexture,
     palette: DataTexture,
+    faces: Faces,
+}
+
+/// What changes with the faces of a surface, while its nodes stay.
+struct Faces {
+    normals: DataTexture,
+    colours: DataTexture,
     group: BindGroup,
     chunks: Vec<Chunk>,
-    bytes: usize,
 }
 
 struct Chunk {
@@ -98,11 +104,33 @@ impl MeshPipeline {
         let texels: Vec<[f32; 4]> = surface.positions().iter().map(|p| p.extend(1.0).to_array()).collect();
         let positions = DataTexture::new(gpu, "nodes", TextureFormat::Rgba32Float, &texels)?;
         drop(texels);
+        let palette = DataTexture::new(gpu, "colours", TextureFormat::Rgba8Unorm, &[[0u8; 4]; 256])?;
+        let faces = self.upload_faces(gpu, surface, &uniform, [&positions, &palette])?;
+        Ok(MeshDrawable { uniform, settings, positions, palette, faces })
+    }
+
+    /// Replaces the faces of a surface by those of `surface`, which has the same nodes.
+    pub fn replace_faces(
+        &self,
+        gpu: &Gpu,
+        mesh: &mut MeshDrawable,
+        surface: &Surface,
+    ) -> Result<(), GpuError> {
+        mesh.faces = self.upload_faces(gpu, surface, &mesh.uniform, [&mesh.positions, &mesh.palette])?;
+        Ok(())
+    }
+
+    fn upload_faces(
+        &self,
+        gpu: &Gpu,
+        surface: &Surface,
+        uniform: &Buffer,
+        [positions, palette]: [&DataTexture; 2],
+    ) -> Result<Faces, GpuError> {
         let normals = DataTexture::new(gpu, "faces", TextureFormat::R32Uint, &surface.normals())?;
         let colours =
             DataTexture::new(gpu, "faces", TextureFormat::R8Uint, &vec![0u8; surface.face_count()])?;
-        let palette = DataTexture::new(gpu, "colours", TextureFormat::Rgba8Unorm, &[[0u8; 4]; 256])?;
-        let views = [&positions, &normals, &colours, &palette].map(DataTexture::view);
+        let views = [positions, &normals, &colours, palette].map(DataTexture::view);
         let textures = views
             .iter()
             .zip(1..)
@@ -115,9 +143,7 @@ impl MeshPipeline {
             .into_iter()
             .map(|faces| self.upload_chunk(gpu, surface, faces))
             .collect::<Result<_, _>>()?;
-        let bytes = chunks.iter().map(|c| c.nodes.size() as usize / 3 * 4).sum::<usize>()
-            + [&positions, &normals, &colours, &palette].iter().map(|t| t.bytes()).sum::<usize>();
-        Ok(MeshDrawable { uniform, settings, colours, palette, group, chunks, bytes })
+        Ok(Faces { normals, colours, group, chunks })
     }
 
     fn upload_chunk(
@@ -142,8 +168,8 @@ impl MeshPipeline {
     /// Draws a surface; bind group 0 must be the frame's.
     pub fn draw(&self, pass: &mut RenderPass<'_>, mesh: &MeshDrawable) {
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(1, &mesh.group, &[]);
-        for chunk in &mesh.chunks {
+        pass.set_bind_group(1, &mesh.faces.group, &[]);
+        for chunk in &mesh.faces.chunks {
             pass.set_bind_group(2, &chunk.group, &[]);
             pass.set_vertex_buffer(0, chunk.nodes.slice(..));
             pass.draw(0..chunk.vertices, 0..1);
@@ -155,7 +181,7 @@ impl MeshDrawable {
     /// Colours each face by its index into the palette, or all alike.
     pub fn set_colours(&mut self, gpu: &Gpu, colours: Option<(&[u8], &Palette)>) {
         if let Some((indices, palette)) = colours {
-            self.colours.write(&gpu.queue, indices);
+            self.faces.colours.write(&gpu.queue, indices);
             self.palette.write(&gpu.queue, &palette.0);
         }
         self.set(gpu, Settings { coloured: colours.is_some().into(), ..self.settings });
@@ -180,7 +206,10 @@ impl MeshDrawable {
 
     /// Bytes on the device.
     pub fn bytes(&self) -> usize {
-        self.bytes
+        let Faces { normals, colours, chunks, .. } = &self.faces;
+        let textures = [&self.positions, &self.palette, normals, colours];
+        chunks.iter().map(|c| c.nodes.size() as usize / 3 * 4).sum::<usize>()
+            + textures.iter().map(|t| t.bytes()).sum::<usize>()
     }
 }
 

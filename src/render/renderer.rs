@@ -43,6 +43,7 @@ struct FrameUniform {
     ground_bottom: Vec4,
     front: Vec4,
     back: Vec4,
+    cap: Vec4,
     edge: Vec4,
     counts: [u32; 4],
     regions: [RegionUniform; REGIONS],
@@ -115,6 +116,14 @@ impl Renderer {
         // The old one goes first: two large meshes may not fit.
         self.mesh = None;
         self.mesh = surface.map(|s| self.mesh_pipeline.upload(&self.gpu, s)).transpose()?;
+        self.gpu.check()
+    }
+
+    /// Replaces the surface by one of other faces between the same nodes.
+    pub fn set_faces(&mut self, surface: &Surface) -> Result<(), GpuError> {
+        if let Some(mesh) = &mut self.mesh {
+            self.mesh_pipeline.replace_faces(&self.gpu, mesh, surface)?;
+        }
         self.gpu.check()
     }
 
@@ -194,6 +203,7 @@ impl Renderer {
             ground_bottom: float(theme.ground_bottom),
             front: float(theme.front),
             back: float(theme.back),
+            cap: float(theme.cap),
             edge: float(theme.edge),
             counts: [count, u32::from(self.mesh.as_ref().is_some_and(MeshDrawable::is_coloured)), 0, 0],
             regions,

@@ -12,7 +12,7 @@ use super::{
 use crate::{geometry::Point, sizing::Shape};
 
 /// Pixels from the middle of a region to the knobs that move it along an axis.
-const AXIS_PIXELS: f64 = 56.0;
+pub(super) const AXIS_PIXELS: f64 = 56.0;
 /// Smallest extent that a drag leaves, as a share of the one it started with.
 const SMALLEST: f64 = 0.01;
 
@@ -36,10 +36,12 @@ pub enum Grip {
     From,
     /// The second cap of a cylinder.
     To,
+    /// The plane that cuts a hex mesh, moved along its normal.
+    Section,
 }
 
 impl Grip {
-    /// The handle's name: `center`, `move-x`, `min-x`, `max-x`, `radius`, `from`, `to`.
+    /// The handle's name: `center`, `move-x`, `min-x`, `max-x`, `radius`, `from`, `to`, `section`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Center => "center",
@@ -49,6 +51,7 @@ impl Grip {
             Self::Radius => "radius",
             Self::From => "from",
             Self::To => "to",
+            Self::Section => "section",
         }
     }
 }
@@ -136,7 +139,7 @@ pub struct Drag {
 
 /// What the pointer's ray is met with.
 #[derive(Clone, Copy, Debug)]
-enum Guide {
+pub(super) enum Guide {
     Plane { normal: DVec3 },
     Line { direction: DVec3 },
 }
@@ -210,7 +213,7 @@ fn apart(end: Point, other: Point, before: Point) -> Point {
 
 impl Guide {
     /// The point of the guide through `origin` that the ray meets or comes nearest to.
-    fn meet(self, origin: Point, ray: &Ray) -> Option<Point> {
+    pub fn meet(self, origin: Point, ray: &Ray) -> Option<Point> {
         let w = origin - ray.origin;
         match self {
             Self::Plane { normal } => {
@@ -286,6 +289,7 @@ mod tests {
                         Grip::Center | Grip::From | Grip::To => right * 0.1 + up * 0.05,
                         Grip::Axis(axis) => own_axes(&shape).col(axis) * 0.1,
                         Grip::Face { .. } | Grip::Radius => (at - placement.center).normalize() * 0.1,
+                        Grip::Section => unreachable!("it is no region's"),
                     };
                     let moved = drag(&shape, grip, at + by, &camera);
                     let now = find(&moved, grip, &camera);

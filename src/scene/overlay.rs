@@ -3,8 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, Vec3};
 
-use super::{Frame, Grip, Handle, Placement, Rgba, Scene, Solid, Theme};
-use crate::geometry::Point;
+use super::{Frame, Grip, Handle, Placement, Rgba, Scene, Solid, Theme, camera::corners};
+use crate::geometry::{Aabb, Point};
 
 /// A corner of a translucent surface.
 #[repr(C)]
@@ -75,9 +75,9 @@ const OUTLINE_SELECTED: f32 = 1.75;
 /// Opacity of outlines; the circles of a ball are only there to show that it is round.
 const OUTLINE_OPACITY: u8 = 230;
 const CIRCLE_OPACITY: u8 = 110;
-const KNOB: f32 = 6.5;
-const KNOB_HOVERED: f32 = 8.5;
-const KNOB_RING: f32 = 2.0;
+pub(super) const KNOB: f32 = 6.5;
+pub(super) const KNOB_HOVERED: f32 = 8.5;
+pub(super) const KNOB_RING: f32 = 2.0;
 const PIVOT: f32 = 4.5;
 /// Where the triad stands, from the lower left corner that is not covered, and the length of its arms.
 const TRIAD: f64 = 46.0;
@@ -123,6 +123,19 @@ pub(super) fn region_buffers(
     out
 }
 
+/// The edges of a box.
+pub(super) fn box_outline(bounds: &Aabb, frame: &Frame, theme: &Theme) -> Vec<Segment> {
+    let ends: Vec<_> = corners(bounds).map(|p| frame.scene(p)).collect();
+    let edge = |a: usize, bit: usize| Segment {
+        from: ends[a],
+        to: ends[a | bit],
+        width: OUTLINE,
+        colour: with_alpha(theme.section, CIRCLE_OPACITY),
+    };
+    let edges = (0..ends.len()).flat_map(|a| [1, 2, 4].map(|bit| (a, bit)));
+    edges.filter(|(a, bit)| a & bit == 0).map(|(a, bit)| edge(a, bit)).collect()
+}
+
 /// Buffers of handles, pivot and triad.
 pub(super) fn front_buffers(scene: &Scene) -> FrontBuffers {
     let theme = scene.style.background.theme();
@@ -137,6 +150,7 @@ pub(super) fn front_buffers(scene: &Scene) -> FrontBuffers {
             rim: theme.handle,
         });
     }
+    scene.add_cutaway(&mut out, &theme);
     add_handles(&mut out, &scene.handles(), scene.hovered(), &frame, &theme);
     add_triad(&mut out, scene, &frame, &theme);
     out

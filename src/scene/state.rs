@@ -2,11 +2,11 @@
 
 use std::cell::OnceCell;
 
-use glam::{DMat4, DVec2, Mat4, Vec4};
+use glam::DVec2;
 
 use super::{
-    Axis, Background, Bvh, Camera, Drag, Frame, FrontBuffers, Grip, Handle, Hit, Placement, Projection,
-    RegionBuffers, Surface, Viewport, camera::corners, handle, overlay,
+    Background, Bvh, Camera, Cutaway, Drag, Frame, FrontBuffers, Grip, Handle, Hit, Placement, RegionBuffers,
+    Surface, Viewport, handle, overlay,
 };
 use crate::{
     geometry::{Aabb, Point},
@@ -42,8 +42,12 @@ pub struct Scene {
     pub viewport: Viewport,
     /// How it is drawn.
     pub style: Style,
-    surface: Option<Surface>,
-    tree: OnceCell<Bvh>,
+    pub(super) surface: Option<Surface>,
+    pub(super) tree: OnceCell<Bvh>,
+    /// The hex mesh that the surface shows, if it shows one.
+    pub(super) cutaway: Option<Cutaway>,
+    /// A box whose edges are drawn.
+    pub(super) frame_box: Option<Aabb>,
     regions: Vec<Shape>,
     placements: Vec<Option<Placement>>,
     selected: Option<usize>,
@@ -63,6 +67,8 @@ impl Default for Scene {
             style: Style::default(),
             surface: None,
             tree: OnceCell::new(),
+            cutaway: None,
+            frame_box: None,
             regions: Vec::new(),
             placements: Vec::new(),
             selected: None,
@@ -79,6 +85,7 @@ impl Scene {
     pub fn set_surface(&mut self, surface: Option<Surface>) {
         self.surface = surface;
         self.tree = OnceCell::new();
+        self.cutaway = None;
         self.pivot = None;
     }
 
@@ -91,6 +98,11 @@ impl Scene {
             self.hovered = None;
             self.drag = None;
         }
+    }
+
+    /// Draws the edges of a box, in world coordinates, or of none.
+    pub fn set_box(&mut self, frame_box: Option<Aabb>) {
+        self.frame_box = frame_box;
     }
 
     /// The regions.
@@ -115,7 +127,8 @@ impl Scene {
     }
 
     fn handle_at(&self, pixel: DVec2, reach: f64) -> Option<Handle> {
-        let handles = self.handles();
+        let mut handles = self.handles();
+        handles.extend(self.section_handle());
         handle::handle_at(&handles, pixel, reach, &self.camera, self.viewport).map(|i| handles[i])
     }
 
@@ -129,13 +142,21 @@ impl Scene {
         self.hovered
     }
 
+    /// The region whose handle is held.
+    pub fn held_region(&self) -> Option<&Shape> {
+        self.selected().filter(|_| self.drag.is_some()).map(|i| &self.regions[i])
+    }
+
     /// Takes hold of the handle within `reach` pixels of a pixel. False: there is none.
     pub fn drag_start(&mut self, pixel: DVec2, reach: f64) -> bool {
+        let Some(handle) = self.handle_at(pixel, reach) else { return false };
+        if handle.grip == Grip::Section {
+            return self.drag_section_from(handle, pixel);
+        }
         let ray = self.camera.ray(pixel, self.viewport);
-        self.drag = self.handle_at(pixel, reach).and_then(|handle| {
-            let shape = &self.regions[self.selected()?];
-            Drag::new(shape, handle, &ray, &self.camera)
-        });
+        self.drag = self
+            .selected()
+            .and_then(|selected| Drag::new(&self.regions[selected], handle, &ray, &self.camera));
         self.drag.is_some()
     }
 
@@ -165,6 +186,7 @@ impl Scene {
     pub fn release(&mut self) {
         self.grabbed = None;
         self.drag = None;
+        self.release_section();
     }
 
     /// Turns about what was grabbed, by radians.
@@ -209,10 +231,12 @@ impl Scene {
             .map(|(i, _)| i)
     }
 
-    /// Draw buffers of the regions.
+    /// Draw buffers of the regions and of the box.
     pub fn region_buffers(&self) -> RegionBuffers {
-        let theme = self.style.background.theme();
-        overlay::region_buffers(&self.placements, self.selected(), &self.frame(), &theme)
+        let (theme, frame) = (self.style.background.theme(), self.frame());
+        let mut buffers = overlay::region_buffers(&self.placements, self.selected(), &frame, &theme);
+        buffers.outlines.extend(self.frame_box.iter().flat_map(|b| overlay::box_outline(b, &frame, &theme)));
+        buffers
     }
 
     /// Draw buffers of handles, pivot and triad.
@@ -234,7 +258,9 @@ impl Scene {
     pub fn bounds(&self) -> Aabb {
         let surface = self.surface.as_ref().map_or(Aabb::EMPTY, |s| *s.bounds());
         let regions = self.placements.iter().flatten().map(Placement::bounds);
-        regions.fold(surface, |all, b| Aabb { min: all.min.min(b.min), max: all.max.max(b.max) })
+        regions
+            .chain(self.frame_box)
+            .fold(surface, |all, b| Aabb { min: all.min.min(b.min), max: all.max.max(b.max) })
     }
 
     /// The first face under a pixel.
@@ -262,100 +288,5 @@ impl Scene {
         let bounds = self.bounds();
         let middle = if bounds.is_empty() { self.camera.target() } else { bounds.center() };
         self.pivot.unwrap_or(middle)
-    }
-
-    /// The camera that shows everything from where it looks now.
-    pub fn framed(&self) -> Camera {
-        self.framing(self.camera)
-    }
-
-    /// `camera` moved to where it shows everything.
-    fn framing(&self, mut camera: Camera) -> Camera {
-        let frame = self.frame();
-        let surface = self.surface.iter().flat_map(|s| s.positions());
-        let surface = surface.map(move |p| frame.world(p.as_dvec3()));
-        let regions = self.placements.iter().flatten().flat_map(|p| corners(&p.bounds()));
-        camera.frame(surface.chain(regions), self.viewport, self.clear());
-        camera
-    }
-
-    /// The share of the canvas, across and down, that nothing covers; at least a quarter.
-    fn clear(&self) -> DVec2 {
-        let size = DVec2::new(self.viewport.width, self.viewport.height);
-        (1.0 - 2.0 * DVec2::from_array(self.style.covered) / size).max(DVec2::splat(0.25))
-    }
-
-    /// The camera that shows a face and what is around it, or `None` if there is no such face.
-    pub fn framed_face(&self, face: usize) -> Option<Camera> {
-        let surface = self.surface.as_ref().filter(|s| face < s.face_count())?;
-        let bounds = surface.face_bounds(face);
-        let mut camera = self.camera;
-        let around = bounds.grown(FACE_SURROUNDINGS * bounds.diagonal());
-        camera.frame(corners(&around), self.viewport, self.clear());
-        Some(camera)
-    }
-
-    /// The camera that shows everything along an axis.
-    pub fn along(&self, axis: Axis) -> Camera {
-        let mut camera = self.camera;
-        camera.look_along(axis);
-        self.framing(camera)
-    }
-
-    /// Scales the distance to `anchor`, within reason: neither through the surface's own digits nor so
-    /// far out that it cannot be found again.
-    pub fn zoom(&mut self, anchor: Point, factor: f64) {
-        let size = self.bounds().diagonal();
-        let limits = if size > 0.0 { ZOOM_LIMITS.map(|l| l * size) } else { [0.0, f64::MAX] };
-        let distance = (self.camera.distance * factor).clamp(limits[0], limits[1]);
-        self.camera.dolly(anchor, distance / self.camera.distance);
-    }
-
-    /// The transform from scene to clip space.
-    pub fn clip_from_scene(&self) -> Mat4 {
-        let clip_from_world = self.camera.clip_from_world(&self.bounds(), self.viewport);
-        (clip_from_world * self.frame().world_from_scene()).as_mat4()
-    }
-
-    /// The rotation from scene to view directions: x right, y up, z towards the eye.
-    pub fn view_from_scene(&self) -> Mat4 {
-        let [right, up, forward] = self.camera.axes();
-        DMat4::from_cols(right.extend(0.0), up.extend(0.0), (-forward).extend(0.0), glam::DVec4::W)
-            .transpose()
-            .as_mat4()
-    }
-
-    /// The eye in the scene (w = 1), or the direction towards it where the view is orthographic (w = 0).
-    pub fn eye(&self) -> Vec4 {
-        match self.camera.projection {
-            Projection::Perspective => self.frame().scene(self.camera.eye).extend(1.0),
-            Projection::Orthographic => (-self.camera.axes()[2]).as_vec3().extend(0.0),
-        }
-    }
-}
-
-/// Least and greatest distance of the eye, in diagonals of what is shown.
-const ZOOM_LIMITS: [f64; 2] = [1e-5, 50.0];
-/// What is shown around a framed face, in diagonals of it.
-const FACE_SURROUNDINGS: f64 = 3.0;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_framed_stays_clear_of_what_is_covered() {
-        let nodes = [0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 4.0, 2.0, 0.0, 0.0, 2.0, 1.0];
-        let style = Style { covered: [300.0, 100.0], ..Style::default() };
-        let viewport = Viewport { width: 1000.0, height: 800.0 };
-        let mut scene = Scene { viewport, style, ..Scene::default() };
-        scene.set_surface(Some(Surface::new(&nodes, None, vec![0, 1, 2, 3]).unwrap()));
-        for axis in [Axis::PlusX, Axis::MinusY, Axis::MinusZ, Axis::Iso] {
-            let camera = scene.along(axis);
-            for node in nodes.chunks(3) {
-                let at = camera.pixel(Point::new(node[0], node[1], node[2]), viewport).unwrap();
-                assert!((300.0..=700.0).contains(&at.x) && (100.0..=700.0).contains(&at.y), "{axis:?}: {at}");
-            }
-        }
     }
 }

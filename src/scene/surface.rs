@@ -6,7 +6,7 @@
 //! and without the triangulation's diagonals. A quad costs 24 bytes of vertices, 8 of triangles, 4 of
 //! normal, 1 of colour, and about one node of 16: 53 bytes.
 
-use std::ops::Range;
+use std::{ops::Range, sync::Arc};
 
 use glam::{DVec3, Vec3};
 
@@ -17,20 +17,25 @@ use crate::{
 };
 
 /// Number of low bits of a triangle's tag that are flags; the face id stands above them.
-const FLAG_BITS: u32 = 4;
+const FLAG_BITS: u32 = 5;
 /// Flag of a triangle of a polygon with more than four corners: the size of such a triangle says
 /// nothing of the size of its face.
 const FLAG_POLYGON: u32 = 1 << 3;
+/// Flag of a triangle of a cap: a face inside a hex mesh that a cut brings to light.
+const FLAG_CAP: u32 = 1 << 4;
 
 /// A polygon surface in scene coordinates.
 #[derive(Clone, Debug)]
 pub struct Surface {
     frame: Frame,
     bounds: Aabb,
-    positions: Vec<Vec3>,
+    /// Shared by the surfaces that different cuts leave of one mesh.
+    positions: Arc<[Vec3]>,
     /// Where each face's corners start and the last ends; `None`: every face has four.
     offsets: Option<Vec<u32>>,
     corners: Vec<u32>,
+    /// Whether each face is a cap; empty: none is.
+    is_cap: Vec<bool>,
 }
 
 /// Why arrays are no surface.
@@ -42,6 +47,9 @@ pub enum SurfaceError {
     /// A coordinate is infinite or not a number.
     #[error("node {0} has a coordinate that is not a finite number")]
     NotFinite(usize),
+    /// Nodes of hexes do not come in eights.
+    #[error("{0} nodes are no whole number of hexes; give the eight nodes of each")]
+    Hexes(usize),
     /// Offsets do not start at 0, fall, end elsewhere than the corners, or give a face of two corners.
     #[error("offsets are wrong at face {0}: each face needs at least three corners, all of them listed")]
     Offsets(usize),
@@ -65,7 +73,7 @@ pub enum SurfaceError {
 pub struct TriangleBuffers {
     /// Three node ids a triangle.
     pub nodes: Vec<u32>,
-    /// One tag a triangle: `face << 4 | polygon << 3 | sides`, where bit k of `sides` says that the
+    /// One tag a triangle: `face << 5 | cap << 4 | polygon << 3 | sides`, where bit k of `sides` says that the
     /// side opposite the triangle's corner k is a side of the face.
     pub tags: Vec<u32>,
 }
@@ -88,9 +96,15 @@ impl Surface {
         let bounds = points().fold(Aabb::EMPTY, Aabb::with);
         let frame = Frame::around(&bounds);
         let positions = points().map(|p| frame.scene(p)).collect();
-        let surface = Self { frame, bounds, positions, offsets, corners };
+        let surface = Self { frame, bounds, positions, offsets, corners, is_cap: Vec::new() };
         surface.validate()?;
         Ok(surface)
+    }
+
+    /// Quads between the same nodes, and which of them are caps. The nodes must be there.
+    pub(super) fn with_quads(&self, quads: Vec<[u32; 4]>, is_cap: Vec<bool>) -> Self {
+        let corners = quads.into_flattened();
+        Self { positions: self.positions.clone(), offsets: None, corners, is_cap, ..*self }
     }
 
     fn validate(&self) -> Result<(), SurfaceError> {
@@ -169,9 +183,13 @@ impl Surface {
 
     /// The box around a face, in world coordinates.
     pub fn face_bounds(&self, face: usize) -> Aabb {
-        let mut points = Vec::new();
-        self.face_points(face, &mut points);
-        points.iter().fold(Aabb::EMPTY, |b, &p| b.with(self.frame.world(p)))
+        self.bounds_of(self.face(face))
+    }
+
+    /// The box around some nodes, in world coordinates.
+    pub(super) fn bounds_of(&self, nodes: &[u32]) -> Aabb {
+        let point = |&n: &u32| self.frame.world(self.positions[n as usize].as_dvec3());
+        nodes.iter().map(point).fold(Aabb::EMPTY, Aabb::with)
     }
 
     /// Consecutive runs of faces of at most `limit` triangles each (a face of more is a run of its own).
@@ -204,9 +222,10 @@ impl Surface {
             self.face_points(face, &mut points);
             triangles.clear();
             triangulate(&points, &mut triangles);
+            let flags = if self.is_cap.get(face) == Some(&true) { FLAG_CAP } else { 0 };
             for &triangle in &triangles {
                 out.nodes.extend(triangle.map(|corner| nodes[corner as usize]));
-                out.tags.push(tag(face, nodes.len(), triangle));
+                out.tags.push(tag(face, nodes.len(), triangle) | flags);
             }
         }
         out

@@ -25,12 +25,16 @@ pub struct Theme {
     pub front: Rgba,
     /// Back of a face: another hue, so that a turned face is seen at once.
     pub back: Rgba,
+    /// Caps: faces inside a hex mesh that a cut brings to light.
+    pub cap: Rgba,
     /// Edges of faces.
     pub edge: Rgba,
     /// Regions.
     pub region: Rgba,
     /// The selected region and its handles.
     pub selected: Rgba,
+    /// The plane that cuts a hex mesh, and its handle.
+    pub section: Rgba,
     /// Inside of handles.
     pub handle: Rgba,
     /// The axes x, y and z.
@@ -46,9 +50,11 @@ impl Background {
                 ground_bottom: [226, 230, 236, 255],
                 front: [222, 227, 233, 255],
                 back: [226, 178, 146, 255],
+                cap: [160, 200, 238, 255],
                 edge: [32, 40, 52, 255],
                 region: [196, 112, 0, 255],
                 selected: [232, 89, 12, 255],
+                section: [36, 83, 201, 255],
                 handle: [255, 255, 255, 255],
                 axes: [[214, 57, 57, 255], [47, 143, 58, 255], [45, 98, 214, 255]],
             },
@@ -57,9 +63,11 @@ impl Background {
                 ground_bottom: [20, 23, 28, 255],
                 front: [184, 192, 204, 255],
                 back: [184, 134, 104, 255],
+                cap: [112, 160, 212, 255],
                 edge: [12, 15, 20, 255],
                 region: [255, 179, 71, 255],
                 selected: [255, 146, 43, 255],
+                section: [140, 171, 255, 255],
                 handle: [255, 255, 255, 255],
                 axes: [[255, 107, 107, 255], [105, 219, 124, 255], [116, 162, 255, 255]],
             },

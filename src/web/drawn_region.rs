@@ -1,9 +1,9 @@
-//! The regions that the viewer draws, as JavaScript has them.
+//! The regions and the section that the viewer draws, as JavaScript has them.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use crate::sizing::Shape;
+use crate::{scene::Section, sizing::Shape};
 
 /// `{ kind: 'box', min, max, rotation? } | { kind: 'sphere', center, radius } | { kind: 'cylinder', from,
 /// to, radius }`, vectors as arrays. Other keys are ignored.
@@ -42,5 +42,27 @@ impl DrawnRegion {
             Shape::Cylinder { from, to, radius } => Some(Self::Cylinder { from, to, radius }),
             Shape::Points { .. } | Shape::Surface { .. } => None,
         }
+    }
+}
+
+/// The plane that cuts a hex mesh: `{ kind: 'section', normal, offset }`, the normal as an array.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[serde(tag = "kind", rename = "section")]
+pub struct DrawnSection {
+    normal: DVec3,
+    offset: f64,
+}
+
+impl DrawnSection {
+    /// The plane, if it is one.
+    pub fn plane(self) -> Result<Section, String> {
+        let Self { normal, offset } = self;
+        Section::new(normal, offset)
+            .ok_or_else(|| format!("normal {normal} and offset {offset} are no plane"))
+    }
+
+    /// The plane as JavaScript has it.
+    pub fn of(section: &Section) -> Self {
+        Self { normal: section.normal(), offset: section.offset() }
     }
 }

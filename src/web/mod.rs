@@ -4,6 +4,8 @@
 //! a pool of workers (`threads`) and the renderer (`viewer`). See `scripts/build-wasm.mjs`.
 
 #[cfg(all(feature = "viewer", target_arch = "wasm32"))]
+mod cutaway;
+#[cfg(all(feature = "viewer", target_arch = "wasm32"))]
 mod drawn_region;
 #[cfg(feature = "mesher")]
 mod errors;

@@ -6,12 +6,12 @@ use glam::DVec2;
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
-use super::drawn_region::DrawnRegion;
+use super::drawn_region::{DrawnRegion, DrawnSection};
 use crate::{
     render::Renderer,
     scene::{
-        Axis, Background, Camera, ColourMap, Handle, Projection, Scene, Style, Surface, Up, Viewport,
-        colour_index,
+        Axis, Background, Camera, ColourMap, Handle, Palette, Projection, Scene, Style, Surface, Up,
+        Viewport, colour_index,
     },
     sizing::Shape,
 };
@@ -19,15 +19,17 @@ use crate::{
 /// A scene drawn on a canvas.
 #[wasm_bindgen]
 pub struct Viewer {
-    scene: Scene,
-    renderer: Renderer,
+    pub(super) scene: Scene,
+    pub(super) renderer: Renderer,
     flight: Option<[Camera; 2]>,
+    /// The colour of each cell of a hex mesh, by index.
+    pub(super) cell_colours: Option<(Vec<u8>, Palette)>,
 }
 
-/// A face and a point on it.
+/// A face of a surface, or a cell of a hex mesh, and a point on it.
 #[wasm_bindgen]
 pub struct PickedFace {
-    /// The face.
+    /// The face or cell.
     pub face: u32,
     /// World coordinates of the point.
     pub x: f64,
@@ -55,7 +57,11 @@ struct HandlePosition {
     y: f64,
 }
 
-fn error(e: impl std::fmt::Display) -> JsError {
+pub(super) fn wrong_count(values: usize, count: usize, what: &str) -> JsError {
+    error(format!("{values} values for {count} {what}; give one value for each"))
+}
+
+pub(super) fn error(e: impl std::fmt::Display) -> JsError {
     JsError::new(&e.to_string())
 }
 
@@ -65,7 +71,7 @@ impl Viewer {
     pub async fn create(canvas: HtmlCanvasElement) -> Result<Viewer, JsError> {
         console_error_panic_hook::set_once();
         let renderer = Renderer::on_canvas(canvas).await.map_err(error)?;
-        Ok(Self { scene: Scene::default(), renderer, flight: None })
+        Ok(Self { scene: Scene::default(), renderer, flight: None, cell_colours: None })
     }
 
     /// Fits a canvas of `width` by `height` CSS pixels, and of how many device pixels.
@@ -90,18 +96,23 @@ impl Viewer {
         self.clear_mesh()?;
         self.renderer.set_surface(Some(&surface)).map_err(error)?;
         self.scene.set_surface(Some(surface));
+        self.mesh_changed(keep_camera);
+        Ok(())
+    }
+
+    pub(super) fn mesh_changed(&mut self, keep_camera: bool) {
         self.renderer.regions_changed();
         self.flight = None;
         if !keep_camera {
             self.scene.camera = self.scene.framed();
         }
-        Ok(())
     }
 
     /// Shows no surface.
     #[wasm_bindgen(js_name = clearMesh)]
     pub fn clear_mesh(&mut self) -> Result<(), JsError> {
         self.scene.set_surface(None);
+        self.cell_colours = None;
         self.renderer.regions_changed();
         self.renderer.set_surface(None).map_err(error)
     }
@@ -109,10 +120,11 @@ impl Viewer {
     /// Gives all faces the same colour.
     #[wasm_bindgen(js_name = colourPlain)]
     pub fn colour_plain(&mut self) {
+        self.cell_colours = None;
         self.renderer.set_colours(None);
     }
 
-    /// Colours each face by its value. There must be one value a face.
+    /// Colours each face of a surface, or each cell of a hex mesh, by its value. There must be one value for each.
     #[wasm_bindgen(js_name = colourByValue)]
     pub fn colour_by_value(
         &mut self,
@@ -122,13 +134,20 @@ impl Viewer {
         map: JsValue,
     ) -> Result<(), JsError> {
         let map: ColourMap = serde_wasm_bindgen::from_value(map)?;
-        let faces = self.scene.surface().map_or(0, Surface::face_count);
-        if values.len() != faces {
-            return Err(error(format!("{} values for {faces} faces; give one value a face", values.len())));
+        let faces = || (self.scene.surface().map_or(0, Surface::face_count), "faces");
+        let (count, what) =
+            self.scene.cutaway().map_or_else(faces, |cutaway| (cutaway.hexes().len(), "cells"));
+        if values.len() != count {
+            return Err(wrong_count(values.len(), count, what));
         }
         let range = [low, high];
         let indices: Vec<u8> = values.iter().map(|&v| colour_index(v, range, map)).collect();
-        self.renderer.set_colours(Some((&indices, &map.palette(range))));
+        if self.scene.cutaway().is_some() {
+            self.cell_colours = Some((indices, map.palette(range)));
+            self.colour_cells();
+        } else {
+            self.renderer.set_colours(Some((&indices, &map.palette(range))));
+        }
         Ok(())
     }
 
@@ -166,10 +185,10 @@ impl Viewer {
         self.scene.prepare_picking();
     }
 
-    /// The first face under a pixel.
+    /// The first face of the surface, or cell of the hex mesh, under a pixel.
     pub fn pick(&self, x: f64, y: f64) -> Option<PickedFace> {
         self.scene.pick(DVec2::new(x, y)).map(|hit| PickedFace {
-            face: hit.face as u32,
+            face: self.scene.cutaway().map_or(hit.face as u32, |cutaway| cutaway.cells()[hit.face]),
             x: hit.point.x,
             y: hit.point.y,
             z: hit.point.z,
@@ -192,13 +211,19 @@ impl Viewer {
         self.scene.region_at(DVec2::new(x, y)).map(|i| i as u32)
     }
 
-    /// The handles of the selected region: `{ name, x, y }[]`.
+    /// The handles of the selected region and of the section: `{ name, x, y }[]`.
     pub fn handles(&self) -> Result<JsValue, JsError> {
         let position = |h: Handle| {
             let at = self.scene.camera.pixel(h.at, self.scene.viewport)?;
             Some(HandlePosition { name: h.grip.name(), x: at.x, y: at.y })
         };
-        let positions: Vec<_> = self.scene.handles().into_iter().filter_map(position).collect();
+        let positions: Vec<_> = self
+            .scene
+            .handles()
+            .into_iter()
+            .chain(self.scene.section_handle())
+            .filter_map(position)
+            .collect();
         Ok(serde_wasm_bindgen::to_value(&positions)?)
     }
 
@@ -218,12 +243,24 @@ impl Viewer {
         self.scene.drag_start(DVec2::new(x, y), reach)
     }
 
-    /// Drags the held handle to a pixel; the selected region as it is then.
+    /// Drags the held handle to a pixel; see [`Viewer::dragged`].
     #[wasm_bindgen(js_name = dragTo)]
     pub fn drag_to(&mut self, x: f64, y: f64) -> Result<JsValue, JsError> {
-        self.renderer.regions_changed();
-        let shape = self.scene.drag_to(DVec2::new(x, y));
-        Ok(serde_wasm_bindgen::to_value(&shape.and_then(DrawnRegion::of))?)
+        let pixel = DVec2::new(x, y);
+        if self.scene.drag_section_to(pixel).is_some() {
+            self.faces_changed()?;
+        } else if self.scene.drag_to(pixel).is_some() {
+            self.renderer.regions_changed();
+        }
+        self.dragged()
+    }
+
+    /// The selected region or the section as it is now, if its handle is held.
+    pub fn dragged(&self) -> Result<JsValue, JsError> {
+        if let Some(section) = self.scene.held_section() {
+            return Ok(serde_wasm_bindgen::to_value(&DrawnSection::of(&section))?);
+        }
+        Ok(serde_wasm_bindgen::to_value(&self.scene.held_region().and_then(DrawnRegion::of))?)
     }
 
     /// Takes hold of what is under a pixel: `orbit` turns about it, `pan` makes it follow.
@@ -275,10 +312,14 @@ impl Viewer {
         self.fly_to(self.scene.framed());
     }
 
-    /// Prepares a flight to a face. Without such a face nothing happens.
+    /// Prepares a flight to a face of the surface, or a cell of the hex mesh. Without such a one nothing happens.
     #[wasm_bindgen(js_name = flyToFace)]
     pub fn fly_to_face(&mut self, face: u32) {
-        if let Some(camera) = self.scene.framed_face(face as usize) {
+        let index = face as usize;
+        let is_cell = self.scene.cutaway().is_some();
+        if let Some(camera) =
+            if is_cell { self.scene.framed_cell(index) } else { self.scene.framed_face(index) }
+        {
             self.fly_to(camera);
         }
     }
@@ -320,6 +361,12 @@ impl Viewer {
         self.scene.camera =
             Camera { eye: glam::DVec3::new(x, y, z), yaw, pitch, distance, ..self.scene.camera };
         Ok(())
+    }
+
+    /// Number of faces that are drawn.
+    #[wasm_bindgen(js_name = faceCount)]
+    pub fn face_count(&self) -> usize {
+        self.scene.surface().map_or(0, Surface::face_count)
     }
 
     /// Bytes of the mesh on the device.

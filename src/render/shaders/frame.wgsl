@@ -22,6 +22,8 @@ struct Frame {
     ground_bottom: vec4<f32>,
     front: vec4<f32>,
     back: vec4<f32>,
+    // Faces inside a hex mesh that a cut brings to light.
+    cap: vec4<f32>,
     edge: vec4<f32>,
     // x: how many regions there are. y: 1 where the colours of faces mean something.
     counts: vec4<u32>,

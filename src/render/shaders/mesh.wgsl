@@ -22,8 +22,9 @@ struct Mesh {
 @group(1) @binding(4) var palette: texture_2d<f32>;
 @group(2) @binding(0) var tags: texture_2d<u32>;
 
-const FLAG_BITS: u32 = 4u;
+const FLAG_BITS: u32 = 5u;
 const FLAG_POLYGON: u32 = 8u;
+const FLAG_CAP: u32 = 16u;
 
 struct Varying {
     @builtin(position) clip: vec4<f32>,
@@ -34,6 +35,8 @@ struct Varying {
     @location(3) @interpolate(flat, either) colour: vec3<f32>,
     // 1: the size of the triangle says nothing of the size of its face.
     @location(4) @interpolate(flat, either) polygon: f32,
+    // 1: a cap, which stays bright whatever way it faces: what is in it matters more than its shape.
+    @location(5) @interpolate(flat, either) cap: f32,
 }
 
 fn texel(index: u32) -> vec2<u32> {
@@ -61,7 +64,8 @@ fn vertex(@location(0) node: u32, @builtin(vertex_index) index: u32) -> Varying 
     out.position = position;
     out.sides = max(here, is_diagonal);
     out.normal = unpack_normal(textureLoad(normals, face, 0).x);
-    out.colour = frame.front.rgb;
+    out.cap = select(0.0, 1.0, (tag & FLAG_CAP) != 0u);
+    out.colour = mix(frame.front.rgb, frame.cap.rgb, out.cap);
     if mesh.coloured != 0u {
         out.colour = textureLoad(palette, vec2<u32>(textureLoad(colours, face, 0).x, 0u), 0).rgb;
     }
@@ -134,7 +138,8 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
         // Less shade and no tint: a colour must be found again in the legend.
         colour = in.colour * mix(0.55 + 0.45 * light(normal, to_eye), 0.6, 0.6 * is_back);
     } else {
-        colour = mix(in.colour, frame.back.rgb, is_back) * light(normal, to_eye);
+        let shade = light(normal, to_eye);
+        colour = mix(in.colour, frame.back.rgb, is_back) * mix(shade, 0.55 + 0.45 * shade, in.cap);
     }
     let cover = edge_cover(in.sides, in.polygon) * f32(mesh.edges) * frame.edge.a;
     return vec4<f32>(mark_regions(in.position, mix(colour, frame.edge.rgb, cover)), 1.0);
