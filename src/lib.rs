@@ -10,6 +10,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
+//! | [`parallel`] | loops over many threads with the same results for any number |
 //! | [`geometry`] | points, boxes, distances; knows no mesh |
 //! | [`mesh`] | ids, reference elements, meshes, topology, checks, quality |
 //! | [`template`] | refinement templates as data |
@@ -23,6 +24,7 @@
 pub mod geometry;
 pub mod mesh;
 mod monitor;
+pub mod parallel;
 
 pub mod sizing;
 pub mod template;

@@ -9,7 +9,7 @@ use proc_macro2::{Punct, Spacing, TokenStream, TokenTree};
 
 /// Modules by rank. A module may use modules of a lower rank and itself, none of its own rank or higher.
 const RANKS: [&[&str]; 10] = [
-    &["geometry", "monitor"],
+    &["geometry", "monitor", "parallel"],
     &["mesh"],
     &["template", "sizing", "solid", "graph"],
     &["forest"],
@@ -148,28 +148,47 @@ fn violations(path: &str, source: &str) -> Vec<String> {
     bent.chain(complaints.iter().map(|complaint| format!("{module} {complaint}"))).collect()
 }
 
-#[test]
-fn imports_follow_the_arrow() {
+/// The modules below `src`, by their paths there, and their sources.
+fn modules() -> Vec<(String, String)> {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = Vec::new();
     sources(&src, &mut files);
-    let mut checked = 0;
-    let mut bad = Vec::new();
-    for file in files {
-        let inside = file.strip_prefix(&src).expect("below src");
-        let path = inside.with_extension("").to_string_lossy().replace('\\', "/");
-        let path = path.strip_suffix("/mod").unwrap_or(&path);
-        if path == "lib" {
-            continue;
-        }
-        let module = path.split('/').next().expect("a name");
-        assert!(ranks().contains_key(module), "module {module} has no rank in {}", file!());
+    let module = |file: PathBuf| {
+        let inside = file.strip_prefix(&src).expect("below src").with_extension("");
+        let path = inside.to_string_lossy().replace('\\', "/");
         let text = fs::read_to_string(&file).expect("readable source");
-        bad.extend(violations(path, &text).into_iter().map(|v| format!("{}: {v}", inside.display())));
-        checked += 1;
+        (path.strip_suffix("/mod").unwrap_or(&path).to_owned(), text)
+    };
+    let modules: Vec<_> = files.into_iter().map(module).filter(|(path, _)| path != "lib").collect();
+    assert!(modules.len() > 10, "only {} modules found", modules.len());
+    modules
+}
+
+#[test]
+fn imports_follow_the_arrow() {
+    let mut bad = Vec::new();
+    for (path, text) in modules() {
+        let room = path.split('/').next().expect("a name");
+        assert!(ranks().contains_key(room), "module {room} has no rank in {}", file!());
+        bad.extend(violations(&path, &text).into_iter().map(|v| format!("{path}: {v}")));
     }
-    assert!(checked > 10, "only {checked} files found");
     assert!(bad.is_empty(), "against the arrow:\n{}", bad.join("\n"));
+}
+
+/// What names rayon, beside tests: the loop that all others go down to, and the pools.
+const KNOW_THE_THREADS: [&str; 3] = ["parallel/blocks", "web/pool", "bin/hexmill/cli/refine"];
+
+#[test]
+fn all_loops_over_threads_go_through_one_room() {
+    let names_rayon =
+        |text: &str| text.lines().any(|l| !l.trim_start().starts_with("//") && l.contains("rayon"));
+    let others = modules().into_iter().filter(|(path, _)| !path.ends_with("tests"));
+    let others: Vec<String> = others.filter(|(_, text)| names_rayon(text)).map(|(path, _)| path).collect();
+    assert_eq!(
+        BTreeSet::from_iter(others),
+        KNOW_THE_THREADS.map(str::to_owned).into(),
+        "use `parallel` instead"
+    );
 }
 
 #[test]

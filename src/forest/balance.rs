@@ -9,10 +9,9 @@
 //! It is applied from the finest level to the coarsest, and again while anything changes: an element that is
 //! split for it has children that may be too coarse in turn.
 
-use rayon::prelude::*;
-
 use super::QuadForest;
 use crate::mesh::NodeId;
+use crate::parallel;
 use crate::{Cancelled, Monitor};
 
 impl QuadForest {
@@ -28,11 +27,9 @@ impl QuadForest {
             for depth in (0..self.levels.len().saturating_sub(2)).rev() {
                 monitor.proceed()?;
                 let level = &self.levels[depth];
-                let marked: Vec<u32> = (0..level.elements.len())
-                    .into_par_iter()
-                    .filter(|&e| !level.is_refined[e] && wanted.deeper_than(depth, &level.elements[e]))
-                    .map(|e| e as u32)
-                    .collect();
+                let marked = parallel::filter(level.elements.len(), |e| {
+                    !level.is_refined[e] && wanted.deeper_than(depth, &level.elements[e])
+                });
                 let before = level.refined.len();
                 self.split(depth, &marked, monitor)?;
                 wanted.add(self, depth, before);

@@ -15,14 +15,13 @@
 //! themselves alternate: turned so that local nodes 1 and 3 have the second colour they serve as the base
 //! level, and need not be refined (beyond the paper).
 
-use rayon::prelude::*;
-
 use super::QuadForest;
-use super::quadtree::{Level, LevelEdges};
+use super::quadtree::{Level, LevelEdges, midpoint};
 use crate::geometry::Point;
 use crate::mesh::topology::two_colouring;
 use crate::mesh::{EdgeId, Edges, FaceId, NodeId, PolygonMesh};
 use crate::monitor::batches;
+use crate::parallel;
 use crate::{Cancelled, Monitor};
 
 /// Why a polygon mesh cannot be the base of a forest.
@@ -57,26 +56,18 @@ impl QuadForest {
         let (mut positions, node_of) = used_nodes(input, monitor)?;
         let first_edge_node = positions.len();
         positions.reserve_exact(edges.len() + input.face_count());
-        for batch in batches(edges.len(), monitor) {
-            positions.par_extend(edges.ends[batch?].par_iter().map(|ends| {
-                let [a, b] = ends.map(|n| input.positions[n.index()]);
-                (a + b) * 0.5
-            }));
-        }
+        parallel::try_extend(&mut positions, edges.len(), monitor, |e| {
+            midpoint(&input.positions, edges.ends[e])
+        })?;
         let first_face_node = positions.len();
-        for batch in batches(input.face_count(), monitor) {
-            positions.par_extend(batch?.into_par_iter().map(|f| mean(input, f)));
-        }
+        parallel::try_extend(&mut positions, input.face_count(), monitor, |f| mean(input, f))?;
 
         let edge_node = |e: EdgeId| NodeId::new(first_edge_node + e.index());
         let mut ends = Vec::with_capacity(2 * edges.len() + input.corners.len());
-        for batch in batches(edges.len(), monitor) {
-            let halves = batch?.into_par_iter().map(|e| {
-                let middle = edge_node(EdgeId::new(e));
-                edges.ends[e].map(|end| [middle, node_of[end.index()]])
-            });
-            ends.append(&mut halves.collect::<Vec<_>>().into_flattened());
-        }
+        parallel::try_extend(&mut ends, 2 * edges.len(), monitor, |half| {
+            let e = half / 2;
+            [edge_node(EdgeId::new(e)), node_of[edges.ends[e][half % 2].index()]]
+        })?;
         let first_interior = ends.len();
 
         let mut elements = Vec::with_capacity(input.corners.len());

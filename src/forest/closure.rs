@@ -16,13 +16,12 @@
 
 use std::collections::VecDeque;
 
-use rayon::prelude::*;
-
 use super::HexForest;
 use super::octree::{HexLevel, Sides};
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{EDGES, FACES};
 use crate::mesh::topology::Bins;
+use crate::parallel;
 use crate::{Cancelled, Monitor};
 
 /// What a method can make conform at a corner of an element that is not doubly refined: of the three faces and the
@@ -87,14 +86,14 @@ impl HexForest {
     /// balance wants refined.
     fn incomplete(&self, depth: usize, wanted: &Wanted) -> (Vec<u32>, Vec<u32>) {
         let level = &self.levels[depth];
-        let families = (0..level.elements.len() as u32 / 8).into_par_iter();
-        let refined = |k: u32| level.family(k as usize).iter().filter(|&&r| r).count();
-        let halfway = families.clone().filter(|&k| !matches!(refined(k), 0 | 8)).collect();
-        let needed = families.filter(|&k| {
-            let elements = &level.elements[8 * k as usize..8 * k as usize + 8];
+        let families = level.elements.len() / 8;
+        let refined = |k: usize| level.family(k).iter().filter(|&&r| r).count();
+        let halfway = parallel::filter(families, |k| !matches!(refined(k), 0 | 8));
+        let needed = parallel::filter(families, |k| {
+            let elements = &level.elements[8 * k..8 * k + 8];
             refined(k) == 0 && elements.iter().any(|e| wanted.at(depth, e))
         });
-        (halfway, needed.collect())
+        (halfway, needed)
     }
 
     /// Refines what is not refined of families of `levels[depth]`; returns how many elements that was.
@@ -221,14 +220,13 @@ impl<'a> Interface<'a> {
             let (faces, edges) = this.at_corner(k, corner);
             !this.is_doubly[k] && !admits(faces, edges)
         };
-        let mut queue: Vec<NodeId> = (0..self.is_doubly.len())
-            .into_par_iter()
-            .flat_map_iter(|k| (0..8).filter(move |&c| is_violated(k, c)).map(move |c| this.nodes(k)[c]))
-            .collect();
+        let mut queue: Vec<NodeId> = parallel::gather(self.is_doubly.len(), |k, found| {
+            found.extend((0..8).filter(|&c| is_violated(k, c)).map(|c| this.nodes(k)[c]));
+        });
         if queue.is_empty() {
             return None;
         }
-        queue.par_sort_unstable();
+        parallel::sort(&mut queue);
         queue.dedup();
         let corners = (0..8 * self.is_doubly.len()).map(|place| self.nodes(place / 8)[place % 8].index());
         let stars = Bins::of(self.node_count, corners);

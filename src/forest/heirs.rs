@@ -1,11 +1,10 @@
 //! What the elements of a level leave to the next: edges and faces of their children, from their own.
 
-use rayon::prelude::*;
-
 use super::octree::{HexLevel, LevelEdges, LevelFaces, Sides, apart};
 use super::quadtree::append;
 use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES, FACE_ACROSS, FACES, FACES_AT_EDGE};
 use crate::mesh::{EdgeId, FaceId, NodeId};
+use crate::parallel;
 
 /// Makes the edges and faces of `child` that the splits of `parent` have called for.
 ///
@@ -37,15 +36,14 @@ pub(super) fn inherit(parent: &mut HexLevel, child: &mut HexLevel) {
         first_edge: first_inside + 4 * new_faces.len(),
         first_face: first_quarter + 4 * new_faces.len(),
     };
-    let halves: Vec<_> = new_edges.par_iter().map(|&e| heirs.halves(e)).collect();
-    let in_faces: Vec<_> = new_faces.par_iter().map(|&f| heirs.edges_in_face(f)).collect();
-    let families = || marked.par_iter().enumerate();
-    let in_elements: Vec<_> = families().map(|(k, _)| heirs.edges_in_element(k)).collect();
-    let quarters: Vec<_> = new_faces.par_iter().map(|&f| heirs.quarters(f)).collect();
+    let halves = parallel::collect(new_edges.len(), |k| heirs.halves(new_edges[k]));
+    let in_faces = parallel::collect(new_faces.len(), |k| heirs.edges_in_face(new_faces[k]));
+    let in_elements = parallel::collect(marked.len(), |k| heirs.edges_in_element(k));
+    let quarters = parallel::collect(new_faces.len(), |k| heirs.quarters(new_faces[k]));
     let (quarter_nodes, quarter_edges): (Vec<_>, Vec<_>) = quarters.into_iter().unzip();
-    let walls: Vec<_> = families().map(|(k, &e)| heirs.faces_in_element(k, e)).collect();
+    let walls = parallel::collect(marked.len(), |k| heirs.faces_in_element(k, marked[k]));
     let (wall_nodes, wall_edges): (Vec<_>, Vec<_>) = walls.into_iter().unzip();
-    let sides: Vec<_> = families().map(|(k, &e)| heirs.sides(k, e)).collect();
+    let sides = parallel::collect(marked.len(), |k| heirs.sides(k, marked[k]));
 
     append(&mut child.edges.ends, halves.into_flattened());
     append(&mut child.edges.ends, in_faces.into_flattened());

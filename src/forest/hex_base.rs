@@ -5,6 +5,7 @@ use super::HexForest;
 use super::octree::{HexLevel, LevelEdges, LevelFaces, Sides, edges_of_face, refine};
 use crate::mesh::topology::{HexEdges, HexFaces, hex_of};
 use crate::mesh::{EdgeId, FaceId, HexMesh};
+use crate::parallel;
 
 impl HexForest {
     /// The forest of level 1: every hex of `input` refined once. The input's nodes keep their numbers.
@@ -14,7 +15,7 @@ impl HexForest {
     /// tells before.
     pub fn refined_once(input: &HexMesh) -> Self {
         let (count, hexes) = (input.positions.len(), input.hexes.as_slice());
-        let (faces, edges) = rayon::join(|| HexFaces::of(count, hexes), || HexEdges::of(count, hexes));
+        let (faces, edges) = parallel::join(|| HexFaces::of(count, hexes), || HexEdges::of(count, hexes));
         let edges_of = |f: FaceId| -> [EdgeId; 4] {
             let side = faces.sides(f)[0];
             edges_of_face(side as usize % 6, &edges.of_hex[hex_of(side).index()])

@@ -19,14 +19,13 @@
 //! inside it from its centre to the middles of its own; a split element has six edges inside it, from its centre to
 //! those of its faces, and twelve faces, one at the middle of each of its edges. Nothing is searched for or hashed.
 
-use rayon::prelude::*;
-
 use super::UNDIVIDED;
 use super::heirs::inherit;
-use super::quadtree::{append, center, grow, midpoint};
+use super::quadtree::{append, center, midpoint};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::{CORNERS, EDGE_BETWEEN, EDGES_OF_FACE, FACE_ACROSS};
 use crate::mesh::{EdgeId, FaceId, HexId, NodeId};
+use crate::parallel;
 
 /// What a node of an element is to the element's parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -246,24 +245,21 @@ pub(super) fn refine(
     marked: &[u32],
 ) {
     let volume_nodes = add_nodes(positions, parent, marked);
-    let families: Vec<[[NodeId; 8]; 8]> = marked
-        .par_iter()
-        .enumerate()
-        .map(|(k, &e)| {
-            let (element, sides) = (&parent.elements[e as usize], &parent.sides[e as usize]);
-            let middles = sides.edges.map(|e| parent.edges.middle[e.index()]);
-            let centres = sides.faces.map(|f| parent.faces.centre[f.index()]);
-            let volume_node = NodeId(volume_nodes.0 + k as u32);
-            CHILDREN.map(|corners| {
-                corners.map(|local| match usize::from(local) {
-                    k @ 0..8 => element[k],
-                    k @ 8..20 => middles[k - 8],
-                    k @ 20..26 => centres[k - 20],
-                    _ => volume_node,
-                })
+    let families: Vec<[[NodeId; 8]; 8]> = parallel::collect(marked.len(), |k| {
+        let e = marked[k];
+        let (element, sides) = (&parent.elements[e as usize], &parent.sides[e as usize]);
+        let middles = sides.edges.map(|e| parent.edges.middle[e.index()]);
+        let centres = sides.faces.map(|f| parent.faces.centre[f.index()]);
+        let volume_node = NodeId(volume_nodes.0 + k as u32);
+        CHILDREN.map(|corners| {
+            corners.map(|local| match usize::from(local) {
+                k @ 0..8 => element[k],
+                k @ 8..20 => middles[k - 8],
+                k @ 20..26 => centres[k - 20],
+                _ => volume_node,
             })
         })
-        .collect();
+    });
     append(&mut child.elements, families.into_flattened());
     child.is_refined.resize(child.elements.len(), false);
     let at_base = parent.roots.len() == parent.elements.len();
@@ -320,7 +316,7 @@ fn add_nodes(positions: &mut Vec<Point>, level: &mut HexLevel, marked: &[u32]) -
     }
     let (edge_list, face_list) = (&edges.split[old_edges..], &faces.split[old_faces..]);
     let (n, m) = (edge_list.len(), face_list.len());
-    grow(positions, n + m + marked.len(), |old, k| {
+    parallel::grow(positions, n + m + marked.len(), |old, k| {
         if k < n {
             midpoint(old, edges.ends[edge_list[k].index()])
         } else if k < n + m {

@@ -10,11 +10,10 @@
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-use rayon::prelude::*;
-
 use crate::geometry::Point;
 use crate::mesh::{EdgeId, FaceId, NodeId};
 use crate::monitor::batches;
+use crate::parallel;
 use crate::template::quad::{SPLIT, place};
 use crate::{Cancelled, Monitor};
 
@@ -77,11 +76,6 @@ impl Level {
     pub fn root(&self, e: usize) -> FaceId {
         self.roots[e >> self.siblings]
     }
-
-    /// The coarse face of every element, in order.
-    pub fn roots(&self) -> impl IndexedParallelIterator<Item = FaceId> + '_ {
-        (0..self.elements.len()).into_par_iter().map(|e| self.root(e))
-    }
 }
 
 impl LevelEdges {
@@ -93,23 +87,30 @@ impl LevelEdges {
 
     /// The edges of `marked` elements that nothing divides, in order.
     fn undivided_of(&self, marked: &[u32]) -> Vec<EdgeId> {
-        let is_undivided = |e: &EdgeId| self.middle[e.index()] == UNDIVIDED;
-        let all = (0..self.ends.len() as u32).into_par_iter().map(EdgeId);
+        let is_undivided = |e: EdgeId| self.middle[e.index()] == UNDIVIDED;
+        let undivided_if = |is_wanted: &(dyn Fn(EdgeId) -> bool + Sync)| {
+            parallel::filter_map(self.ends.len(), |e| {
+                let edge = EdgeId(e as u32);
+                (is_wanted(edge) && is_undivided(edge)).then_some(edge)
+            })
+        };
         if marked.len() == self.of_element.len() {
-            return all.filter(is_undivided).collect();
+            return undivided_if(&|_| true);
         }
-        let sides = |e: &u32| self.of_element[*e as usize];
+        let sides = |e: u32| self.of_element[e as usize];
         if marked.len() * FEW < self.of_element.len() {
-            let mut undivided: Vec<EdgeId> = marked.iter().flat_map(sides).filter(is_undivided).collect();
-            undivided.par_sort_unstable();
+            let all = marked.iter().flat_map(|&e| sides(e));
+            let mut undivided: Vec<EdgeId> = all.filter(|&e| is_undivided(e)).collect();
+            parallel::sort(&mut undivided);
             undivided.dedup();
             return undivided;
         }
         // Every thread sets flags to the same value, so that their order does not matter.
-        let is_side: Vec<AtomicBool> =
-            (0..self.ends.len()).into_par_iter().map(|_| AtomicBool::new(false)).collect();
-        marked.par_iter().flat_map_iter(sides).for_each(|side| is_side[side.index()].store(true, Relaxed));
-        all.filter(|e| is_side[e.index()].load(Relaxed) && is_undivided(e)).collect()
+        let is_side = parallel::collect(self.ends.len(), |_| AtomicBool::new(false));
+        parallel::for_each(marked.len(), |k| {
+            sides(marked[k]).iter().for_each(|side| is_side[side.index()].store(true, Relaxed));
+        });
+        undivided_if(&|e| is_side[e.index()].load(Relaxed))
     }
 
     /// The half of edge `e` at local node `corner` of an element that has it. Edge nodes are local nodes 1
@@ -151,16 +152,12 @@ impl QuadForest {
         let face_nodes = self.add_nodes(depth, marked);
         let (parents, children) = self.levels.split_at_mut(depth + 1);
         let (parent, child) = (&mut parents[depth], &mut children[0]);
-        let blocks: Vec<[[NodeId; 4]; 4]> = marked
-            .par_iter()
-            .enumerate()
-            .map(|(k, &e)| {
-                let [r0, r1, r2, r3] = parent.elements[e as usize];
-                let [m0, m1, m2, m3] =
-                    parent.edges.of_element[e as usize].map(|e| parent.edges.middle[e.index()]);
-                place(&SPLIT, &[r0, r1, r2, r3, m0, m1, m2, m3, NodeId(face_nodes.0 + k as u32)])
-            })
-            .collect();
+        let blocks: Vec<[[NodeId; 4]; 4]> = parallel::collect(marked.len(), |k| {
+            let e = marked[k] as usize;
+            let [r0, r1, r2, r3] = parent.elements[e];
+            let [m0, m1, m2, m3] = parent.edges.of_element[e].map(|e| parent.edges.middle[e.index()]);
+            place(&SPLIT, &[r0, r1, r2, r3, m0, m1, m2, m3, NodeId(face_nodes.0 + k as u32)])
+        });
         append(&mut child.elements, blocks.into_flattened());
         child.is_refined.resize(child.elements.len(), false);
         child.roots.extend(marked.iter().map(|&e| parent.root(e as usize)));
@@ -180,7 +177,7 @@ impl QuadForest {
         for (k, edge) in divided.iter().enumerate() {
             edges.middle[edge.index()] = NodeId::new(first_node + k);
         }
-        grow(&mut self.positions, divided.len() + marked.len(), |old, k| match divided.get(k) {
+        parallel::grow(&mut self.positions, divided.len() + marked.len(), |old, k| match divided.get(k) {
             Some(edge) => midpoint(old, edges.ends[edge.index()]),
             None => center(old, elements[marked[k - divided.len()] as usize]),
         });
@@ -220,36 +217,26 @@ impl QuadForest {
             for (k, edge) in newly_split.iter().enumerate() {
                 parent.edges.halves[edge.index()] = EdgeId::new(first_half + 2 * k);
             }
-            let halves = newly_split.par_iter().map(|edge| {
-                let middle = parent.edges.middle[edge.index()];
-                parent.edges.ends[edge.index()].map(|end| [middle, end])
+            parallel::extend(&mut edges.ends, 2 * newly_split.len(), |half| {
+                let edge = newly_split[half / 2].index();
+                [parent.edges.middle[edge], parent.edges.ends[edge][half % 2]]
             });
-            edges.ends.append(&mut halves.collect::<Vec<_>>().into_flattened());
             parent.edges.halved = first_split + batch.end;
         }
         for batch in batches(new_blocks, monitor) {
             let batch = batch?;
             let (first, last) = (first_block + batch.start, first_block + batch.end);
             let first_interior = edges.ends.len();
-            let interiors: Vec<[[NodeId; 2]; 4]> = elements[4 * first..4 * last]
-                .par_chunks_exact(4)
-                .map(|block| std::array::from_fn(|i| [block[i][1], block[i][2]]))
-                .collect();
-            let of_element: Vec<[[EdgeId; 4]; 4]> = parent.refined[first..last]
-                .par_iter()
-                .enumerate()
-                .map(|(k, &e)| {
-                    let sides = parent.edges.of_element[e as usize];
-                    let interior = |i: usize| EdgeId((first_interior + 4 * k + i) as u32);
-                    std::array::from_fn(|i| {
-                        let before = (i + 3) % 4;
-                        let half = |side: usize| parent.edges.half(sides[side], i);
-                        [half(i), interior(i), interior(before), half(before)]
-                    })
-                })
-                .collect();
-            edges.ends.extend_from_slice(interiors.as_flattened());
-            edges.of_element.extend_from_slice(of_element.as_flattened());
+            let (children, parents) = (&elements[4 * first..4 * last], &parent.refined[first..last]);
+            parallel::extend(&mut edges.ends, children.len(), |c| [children[c][1], children[c][2]]);
+            parallel::extend(&mut edges.of_element, children.len(), |c| {
+                let (k, i) = (c / 4, c % 4);
+                let sides = parent.edges.of_element[parents[k] as usize];
+                let before = (i + 3) % 4;
+                let half = |side: usize| parent.edges.half(sides[side], i);
+                let interior = |i: usize| EdgeId((first_interior + 4 * k + i) as u32);
+                [half(i), interior(i), interior(before), half(before)]
+            });
         }
         edges.middle.resize(edges.ends.len(), UNDIVIDED);
         edges.halves.resize(edges.ends.len(), EdgeId::default());
@@ -267,19 +254,6 @@ pub(crate) fn midpoint(positions: &[Point], ends: [NodeId; 2]) -> Point {
 pub(crate) fn center(positions: &[Point], element: [NodeId; 4]) -> Point {
     let [a, b, c, d] = element.map(|n| positions[n.index()]);
     ((a + c) + (b + d)) * 0.25
-}
-
-/// Appends `count` points, each made from the points before and its place among the new ones.
-pub(crate) fn grow(points: &mut Vec<Point>, count: usize, make: impl Fn(&[Point], usize) -> Point + Sync) {
-    let new = |old: &[Point]| (0..count).into_par_iter().map(|k| make(old, k)).collect::<Vec<_>>();
-    if count < points.len() {
-        points.append(&mut new(points));
-        return;
-    }
-    // Copying the fewer old points lets all be written by many threads, straight to their places.
-    let old = std::mem::take(points);
-    points.reserve_exact(old.len() + count);
-    points.par_extend(old.par_iter().copied().chain((0..count).into_par_iter().map(|k| make(&old, k))));
 }
 
 /// Appends `more` to `all`, without a copy where `all` is empty.

@@ -1,6 +1,6 @@
 //! Text output: numbers in their shortest form that reads back as the same bits, formatted in parallel.
 
-use rayon::prelude::*;
+use crate::parallel;
 
 /// Lines under construction.
 #[derive(Default)]
@@ -38,16 +38,11 @@ impl Text {
     /// that the bytes are the same for any number of threads.
     pub fn items(&mut self, count: usize, format: impl Fn(&mut Self, usize) + Sync) -> &mut Self {
         const BLOCK: usize = 1 << 14;
-        let blocks: Vec<Vec<u8>> = (0..count.div_ceil(BLOCK))
-            .into_par_iter()
-            .map(|block| {
-                let mut text = Self::default();
-                for item in block * BLOCK..count.min((block + 1) * BLOCK) {
-                    format(&mut text, item);
-                }
-                text.into_bytes()
-            })
-            .collect();
+        let blocks: Vec<Vec<u8>> = parallel::blocks(count, BLOCK, |block| {
+            let mut text = Self::default();
+            block.for_each(|item| format(&mut text, item));
+            text.into_bytes()
+        });
         self.bytes.reserve(blocks.iter().map(Vec::len).sum());
         for block in blocks {
             self.bytes.extend_from_slice(&block);

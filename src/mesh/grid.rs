@@ -1,10 +1,9 @@
 //! Grids of hexes around a box.
 
-use rayon::prelude::*;
-
 use super::numbering::hex::CORNERS;
 use super::{HexMesh, NodeId, Tags};
 use crate::geometry::{Aabb, Point};
+use crate::parallel;
 
 /// What [`hex_grid`] is to make. Lengths are in model units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,8 +110,8 @@ pub fn hex_grid(bounds: Aabb, options: &GridOptions) -> Result<HexMesh, GridErro
         })
     };
     Ok(HexMesh {
-        positions: (0..sx * sy * (nz + 1)).into_par_iter().map(position).collect(),
-        hexes: (0..nx * ny * nz).into_par_iter().map(hex).collect(),
+        positions: parallel::collect(sx * sy * (nz + 1), position),
+        hexes: parallel::collect(nx * ny * nz, hex),
         tags: Tags::default(),
     })
 }

@@ -1,11 +1,10 @@
 //! Hexes that are numbered inside out.
 
-use rayon::prelude::*;
-
 use super::check::listed;
 use super::numbering::hex::{CORNERS, EDGE_BETWEEN, EDGES, NONE};
 use super::{HexId, HexMesh};
 use crate::geometry::Point;
+use crate::parallel;
 
 /// A corner counts as turned inside out if the determinant of its unit edge vectors is below minus this: what is
 /// left of the digits of f64 once coordinates are a thousand times larger than the hex.
@@ -38,11 +37,11 @@ pub struct InvertedHexes(pub Vec<HexId>);
 /// ```
 pub fn orient_hexes(mesh: &mut HexMesh) -> Result<usize, InvertedHexes> {
     let HexMesh { positions, hexes, .. } = mesh;
-    let turned = |(h, hex): (usize, &[super::NodeId; 8])| {
-        let corners = inverted_corners(&hex.map(|n| positions[n.index()]));
+    let turned = |h: usize| {
+        let corners = inverted_corners(&hexes[h].map(|n| positions[n.index()]));
         (corners != 0).then_some((HexId::new(h), corners == ALL))
     };
-    let found: Vec<(HexId, bool)> = hexes.par_iter().enumerate().filter_map(turned).collect();
+    let found: Vec<(HexId, bool)> = parallel::filter_map(hexes.len(), turned);
     let wrong: Vec<HexId> = found.iter().filter(|(_, whole)| !whole).map(|&(h, _)| h).collect();
     if !wrong.is_empty() {
         return Err(InvertedHexes(wrong));

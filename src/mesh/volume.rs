@@ -1,11 +1,13 @@
 //! How much room hexes take.
 
-use rayon::prelude::*;
+use std::ops::Range;
+
 use serde::Serialize;
 
 use super::HexMesh;
 use super::numbering::hex::FACES;
 use crate::geometry::Point;
+use crate::parallel;
 
 /// The volumes of the hexes of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -29,16 +31,17 @@ impl Volumes {
     /// # Panics
     /// If a node id is out of range: `check_hexes` tells before.
     pub fn of(mesh: &HexMesh) -> Option<Self> {
-        let measure = |block: &[[super::NodeId; 8]]| {
+        let measure = |block: Range<usize>| {
             let none = Self { total: 0.0, min: f64::INFINITY, max: f64::NEG_INFINITY };
-            let volumes = block.iter().map(|hex| hex_volume(&hex.map(|n| mesh.positions[n.index()])));
+            let volumes =
+                mesh.hexes[block].iter().map(|hex| hex_volume(&hex.map(|n| mesh.positions[n.index()])));
             volumes.fold(none, |sum, v| Self {
                 total: sum.total + v,
                 min: sum.min.min(v),
                 max: sum.max.max(v),
             })
         };
-        let blocks: Vec<Self> = mesh.hexes.par_chunks(BLOCK).map(measure).collect();
+        let blocks: Vec<Self> = parallel::blocks(mesh.hexes.len(), BLOCK, measure);
         let add = |a: Self, b: Self| Self {
             total: a.total + b.total,
             min: a.min.min(b.min),

@@ -1,14 +1,12 @@
 //! The part of a mesh that moves, numbered for itself: the nodes that move, the cells around them, and who may move
 //! at the same time.
 
-use rayon::prelude::*;
-
 use super::constraint::Constraints;
-use super::sweep::LANE;
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::{Certainty, is_positive, scaled_jacobian};
 use crate::mesh::{HexId, NodeId};
+use crate::parallel;
 
 /// No node of the problem.
 const NONE: u32 = u32::MAX;
@@ -44,11 +42,10 @@ impl<'a> Problem<'a> {
         constraints: &'a Constraints<'a>,
     ) -> Self {
         let moves = |n: NodeId| movable[n.index()] && !constraints.is_fixed(n);
-        let touched: Vec<usize> =
-            (0..hexes.len()).into_par_iter().filter(|&h| hexes[h].iter().any(|&n| moves(n))).collect();
+        let touched = parallel::filter(hexes.len(), |h| hexes[h].iter().any(|&n| moves(n)));
         let mut used = vec![false; positions.len()];
         for &h in &touched {
-            for n in hexes[h] {
+            for n in hexes[h as usize] {
                 used[n.index()] = true;
             }
         }
@@ -63,14 +60,15 @@ impl<'a> Problem<'a> {
         for (i, n) in (0u32..).zip(&nodes) {
             local[n.index()] = i;
         }
-        let cells: Vec<[u32; 8]> = touched.iter().map(|&h| hexes[h].map(|n| local[n.index()])).collect();
+        let cells: Vec<[u32; 8]> =
+            touched.iter().map(|&h| hexes[h as usize].map(|n| local[n.index()])).collect();
         let points: Vec<Point> = nodes.iter().map(|n| positions[n.index()]).collect();
         let (starts, around) = stars(&cells, movable_count);
         let mut problem = Self {
             constraints,
             anchors: points.clone(),
-            hexes: touched.into_iter().map(HexId::new).collect(),
-            volume: cells.par_iter().map(|cell| cell_size(&cell.map(|n| points[n as usize]))).collect(),
+            hexes: touched.into_iter().map(HexId).collect(),
+            volume: parallel::collect(cells.len(), |c| cell_size(&cells[c].map(|n| points[n as usize]))),
             positive: Vec::new(),
             guarded: vec![false; cells.len()],
             colours: Vec::new(),
@@ -102,8 +100,7 @@ impl<'a> Problem<'a> {
 
     /// Asks every cell again whether it is positive.
     pub(super) fn find_positive(&mut self) {
-        let cells = (0..self.cells.len()).into_par_iter().with_min_len(LANE);
-        self.positive = cells.map(|cell| self.is_positive(cell)).collect();
+        self.positive = parallel::collect(self.cells.len(), |cell| self.is_positive(cell));
     }
 
     /// Is the cell positive in all of its inside, where its nodes are now?
@@ -113,8 +110,7 @@ impl<'a> Problem<'a> {
 
     /// The scaled Jacobian of each cell.
     pub(super) fn scaled_jacobians(&self) -> Vec<f64> {
-        let cells = (0..self.cells.len()).into_par_iter().with_min_len(LANE);
-        cells.map(|cell| scaled_jacobian(&self.corners(cell))).collect()
+        parallel::collect(self.cells.len(), |cell| scaled_jacobian(&self.corners(cell)))
     }
 
     /// The cells around the nodes, each once, ascending.
@@ -171,8 +167,7 @@ impl<'a> Problem<'a> {
 
     /// The greatest distance of a movable node from where its freedom lets it be.
     pub(super) fn off_boundary(&self) -> f64 {
-        let nodes = (0..self.movable()).into_par_iter().with_min_len(LANE);
-        nodes.map(|i| self.constraints.distance(self.nodes[i], self.points[i])).reduce(|| 0.0, f64::max)
+        parallel::greatest(self.movable(), |i| self.constraints.distance(self.nodes[i], self.points[i]))
     }
 }
 

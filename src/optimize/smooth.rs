@@ -6,13 +6,12 @@
 //! 3. No round lowers the worst scaled Jacobian. Cells are kept positive inside by looking at them after each round,
 //!    and where one was lost by making the round again, with that cell guarded at each of its nodes' steps.
 
-use rayon::prelude::*;
-
 use super::energy::Weights;
 use super::problem::Problem;
-use super::sweep::{LANE, Moved, Rules, sweep};
+use super::sweep::{Moved, Rules, sweep};
 use super::{OptimizeOptions, SMOOTHING};
 use crate::mesh::quality::scaled_jacobian;
+use crate::parallel;
 use crate::{Cancelled, Monitor};
 
 /// Rounds with one energy.
@@ -63,11 +62,8 @@ pub(super) fn smooth(
                 sweep(problem, rules, &allowed, awake, monitor)
             })?;
             let changed = problem.cells_around(&moved.nodes);
-            let renewed: Vec<f64> = changed
-                .par_iter()
-                .with_min_len(LANE)
-                .map(|&cell| scaled_jacobian(&problem.corners(cell as usize)))
-                .collect();
+            let renewed =
+                parallel::collect(changed.len(), |k| scaled_jacobian(&problem.corners(changed[k] as usize)));
             changed.iter().zip(renewed).for_each(|(&cell, jacobian)| jacobians[cell as usize] = jacobian);
             done += 1;
             if moved.far == 0 {
@@ -89,12 +85,11 @@ fn keep_positive(
     let before = (problem.points.clone(), awake.clone());
     loop {
         let moved = round(problem, awake)?;
-        let lost: Vec<u32> = problem
-            .cells_around(&moved.nodes)
-            .into_par_iter()
-            .with_min_len(LANE)
-            .filter(|&cell| problem.positive[cell as usize] && !problem.is_positive(cell as usize))
-            .collect();
+        let changed = problem.cells_around(&moved.nodes);
+        let lost: Vec<u32> = parallel::filter_map(changed.len(), |k| {
+            let cell = changed[k] as usize;
+            (problem.positive[cell] && !problem.is_positive(cell)).then_some(changed[k])
+        });
         if lost.is_empty() {
             return Ok(moved);
         }

@@ -1,16 +1,12 @@
 //! One round over nodes: each is moved to where the energy around it is lower, if that keeps what is to be kept.
 
-use rayon::prelude::*;
-
 use super::energy::{Expansion, Weights};
 use super::problem::Problem;
 use super::star::{Reading, Star};
 use super::symmetric::Symmetric;
 use crate::geometry::Point;
+use crate::parallel;
 use crate::{Cancelled, Monitor};
-
-/// Nodes that a thread takes at least.
-pub(super) const LANE: usize = 64;
 
 /// Nodes between two questions whether to stop.
 const BATCH: usize = 4096;
@@ -56,11 +52,9 @@ pub(super) fn sweep(
             if monitor.cancelled() {
                 return Err(Cancelled);
             }
-            let found: Vec<Option<Step>> = batch
-                .par_iter()
-                .with_min_len(LANE)
-                .map_init(Star::default, |star, &node| relaxed(problem, node, rules, star))
-                .collect();
+            let found: Vec<Option<Step>> = parallel::collect_with(batch.len(), Star::default, |star, k| {
+                relaxed(problem, batch[k], rules, star)
+            });
             for (&node, step) in batch.iter().zip(found) {
                 awake[node as usize] = false;
                 let Some(step) = step else { continue };

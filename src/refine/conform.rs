@@ -14,13 +14,12 @@
 //! Quads come out level by level: first those that stay, then template 1, then template 2, each in the order of
 //! their elements.
 
-use rayon::prelude::*;
-
 use super::options::{RefineError, RefinedQuads};
-use crate::forest::{Level, QuadForest, UNDIVIDED, center, grow, midpoint};
+use crate::forest::{Level, QuadForest, UNDIVIDED, center, midpoint};
 use crate::geometry::Point;
 use crate::mesh::{FaceId, NodeId, QuadMesh, Tags};
 use crate::monitor::batches;
+use crate::parallel;
 use crate::template::quad::{Cells, SPLIT, TEMPLATE_1, place};
 use crate::{Cancelled, Monitor, Stage};
 
@@ -102,15 +101,13 @@ impl Transition {
         if level.refined.is_empty() {
             return Ok(Self { stay: Stay::All(level.elements.len()), ..Self::default() });
         }
-        let all = (0..level.elements.len() as u32).into_par_iter();
-        let left: Vec<u32> = all.filter(|&e| !level.is_refined[e as usize]).collect();
+        let left = parallel::filter(level.elements.len(), |e| !level.is_refined[e]);
         let select = |wanted: (bool, bool)| -> Result<Vec<u32>, Cancelled> {
             monitor.proceed()?;
-            let edge_nodes = |e: u32| {
-                let [_, a, _, b] = level.elements[e as usize];
-                (active[a.index()], active[b.index()])
-            };
-            Ok(left.par_iter().copied().filter(|&e| edge_nodes(e) == wanted).collect())
+            Ok(parallel::filter_map(left.len(), |k| {
+                let [_, a, _, b] = level.elements[left[k] as usize];
+                ((active[a.index()], active[b.index()]) == wanted).then_some(left[k])
+            }))
         };
         Ok(Self {
             stay: Stay::Some(select((false, false))?),
@@ -176,17 +173,18 @@ impl Leaves {
         let Transition { stay, one: [first, third], two } = transition;
         match stay {
             Stay::All(_) => {
-                self.parent.par_extend(level.roots());
+                parallel::extend(&mut self.parent, level.elements.len(), |e| level.root(e));
                 if self.quads.is_empty() {
                     self.quads = level.elements;
                 } else {
-                    self.quads.par_extend(&level.elements);
+                    parallel::extend_from_slice(&mut self.quads, &level.elements);
                 }
                 return Ok(());
             }
             Stay::Some(elements) => {
-                self.parent.par_extend(elements.par_iter().map(|&e| level.root(e as usize)));
-                self.quads.par_extend(elements.par_iter().map(|&e| level.elements[e as usize]));
+                let (count, element) = (elements.len(), |k: usize| elements[k] as usize);
+                parallel::extend(&mut self.parent, count, |k| level.root(element(k)));
+                parallel::extend(&mut self.quads, count, |k| level.elements[element(k)]);
             }
         }
         monitor.proceed()?;
@@ -207,20 +205,15 @@ impl Leaves {
         positions: &mut Vec<Point>,
     ) {
         let first_face_node = positions.len();
-        grow(positions, elements.len(), |old, k| center(old, level.elements[elements[k] as usize]));
-        let cells: Vec<[[NodeId; 4]; N]> = elements
-            .par_iter()
-            .enumerate()
-            .map(|(k, &e)| {
-                let [r0, r1, r2, r3] = level.elements[e as usize];
-                let [m0, m1, m2, m3] =
-                    level.edges.of_element[e as usize].map(|e| level.edges.middle[e.index()]);
-                let face_node = NodeId::new(first_face_node + k);
-                place(template, &[r0, r1, r2, r3, m0, m1, m2, m3, face_node])
-            })
-            .collect();
+        parallel::grow(positions, elements.len(), |old, k| center(old, level.elements[elements[k] as usize]));
+        let cells: Vec<[[NodeId; 4]; N]> = parallel::collect(elements.len(), |k| {
+            let e = elements[k] as usize;
+            let [r0, r1, r2, r3] = level.elements[e];
+            let [m0, m1, m2, m3] = level.edges.of_element[e].map(|e| level.edges.middle[e.index()]);
+            let face_node = NodeId::new(first_face_node + k);
+            place(template, &[r0, r1, r2, r3, m0, m1, m2, m3, face_node])
+        });
         self.quads.extend_from_slice(cells.as_flattened());
-        let roots: Vec<_> = elements.par_iter().map(|&e| [level.root(e as usize); N]).collect();
-        self.parent.extend_from_slice(roots.as_flattened());
+        parallel::extend(&mut self.parent, N * elements.len(), |k| level.root(elements[k / N] as usize));
     }
 }

@@ -1,12 +1,10 @@
 //! Which elements the options want finer: what refinement and its estimate have in common.
 
-use rayon::prelude::*;
-
 use super::options::{QuadOptions, RefineError, validate, validate_digits};
 use crate::Monitor;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, PolygonMesh};
-use crate::monitor::batches;
+use crate::parallel;
 use crate::sizing::{SizeField, SizeOptions, SizedElement};
 
 /// The options, checked and made ready for many questions.
@@ -27,11 +25,8 @@ impl Demand {
         let field =
             SizeField::new(input, SizeOptions { edge_length, curvature, gradation, regions }, monitor)?;
         let demand = Self { everywhere: options.levels.unwrap_or(0), field };
-        let mut longest = 0.0_f64;
-        for batch in batches(input.face_count(), monitor) {
-            let edges = batch?.into_par_iter().map(|f| outline(&face_points(input, f)).1);
-            longest = longest.max(edges.reduce(|| 0.0, f64::max));
-        }
+        let longest_edge = |f: usize| outline(&face_points(input, f)).1;
+        let longest = parallel::try_greatest(input.face_count(), monitor, longest_edge)?;
         validate_digits(input, longest, demand.deepest(options.max_levels))?;
         Ok(demand)
     }

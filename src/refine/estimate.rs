@@ -6,7 +6,6 @@
 //! stands for as many as were passed over. Topology is never built, so strong balance and templates are left out;
 //! they add rings of elements around regions, little beside the regions' insides.
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::demand::{Demand, corner_quads, face_points, outline};
@@ -14,6 +13,7 @@ use super::options::{QuadOptions, RefineError};
 use super::quad::refine_within;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, PolygonMesh};
+use crate::parallel;
 use crate::{Cancelled, Monitor};
 
 /// Results of no more quads than this are made and counted.
@@ -21,9 +21,6 @@ const COUNTED: u64 = 60_000;
 
 /// About how many elements of a level are looked at: their share that is wanted finer is then known to a percent.
 const SAMPLE: usize = 20_000;
-
-/// Elements are looked at in runs of this many; the monitor is asked before each run.
-const RUN: usize = 1 << 10;
 
 /// How large a mesh will be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -115,7 +112,7 @@ fn follow_sample(
         level < options.max_levels && demand.wants(s.corners, outline(&s.corners).1, level, s.root)
     };
     let base_count = if options.keep_coarse { input.face_count() } else { input.corners.len() };
-    let wanted = found_in_runs(input.face_count(), monitor, |f, found| {
+    let wanted = parallel::try_gather(input.face_count(), monitor, |f, found| {
         let elements = base(input, f, level).into_iter().enumerate();
         found.extend(elements.filter(|(_, s)| wants(level, s)).map(|(corner, _)| (f, corner)));
     })?;
@@ -134,7 +131,7 @@ fn follow_sample(
         let all: Vec<Sampled> = parents.iter().flat_map(|s| split(&s.corners, s.root)).collect();
         let kept = chosen(all.len(), level);
         weight *= all.len() as f64 / kept.len() as f64;
-        parents = found_in_runs(kept.len(), monitor, |k, found| {
+        parents = parallel::try_gather(kept.len(), monitor, |k, found| {
             found.extend(Some(all[kept[k]]).filter(|s| wants(level, s)));
         })?;
         quads += weight * (kept.len() - parents.len()) as f64;
@@ -142,25 +139,6 @@ fn follow_sample(
     let quads = quads as u64;
     let (nodes, bytes) = (quads.saturating_add(quads / 64), quads.saturating_mul(Estimate::BYTES_PER_QUAD));
     Ok(Estimate { quads, nodes, bytes, levels: level, exact: false })
-}
-
-/// What `look` finds at each of `count` places, in their order.
-pub(super) fn found_in_runs<T: Copy + Send + Sync>(
-    count: usize,
-    monitor: &dyn Monitor,
-    look: impl Fn(usize, &mut Vec<T>) + Sync,
-) -> Result<Vec<T>, Cancelled> {
-    let runs: Vec<Vec<T>> = (0..count)
-        .into_par_iter()
-        .step_by(RUN)
-        .map(|first| {
-            monitor.proceed()?;
-            let mut found = Vec::new();
-            (first..(first + RUN).min(count)).for_each(|place| look(place, &mut found));
-            Ok(found)
-        })
-        .collect::<Result<_, _>>()?;
-    Ok(runs.concat())
 }
 
 /// About [`SAMPLE`] of the numbers below `count`, or all of them.

@@ -15,16 +15,14 @@
 //! **Departures from the paper.** Polygons are welcome: an n-gon's first refinement makes n quads. If nothing is
 //! to be refined, an all-quad mesh comes back as it is. Coarse quads can be kept (see `forest::base`).
 
-use rayon::prelude::*;
-
 use super::conform::conform;
 use super::demand::{Demand, corner_quads, face_points, outline};
-use super::estimate::{found_in_runs, refuse_absurd};
+use super::estimate::refuse_absurd;
 use super::options::{QuadOptions, RefineError, RefinedQuads};
 use crate::forest::QuadForest;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, NodeId, PolygonMesh};
-use crate::monitor::batches;
+use crate::parallel;
 use crate::sizing::limit;
 use crate::{Cancelled, Monitor, Stage};
 
@@ -100,15 +98,14 @@ impl<'a> QuadRefinement<'a> {
     /// elements that the last one made.
     pub fn candidates(&self) -> Candidates {
         let (centers, longest) = match &self.forest {
-            None => (0..self.input.face_count())
-                .into_par_iter()
-                .map(|f| outline(&face_points(self.input, f)))
-                .unzip(),
-            Some(forest) => last_elements(forest)
-                .par_iter()
-                .map(|element| outline(&corners(&forest.positions, element)))
-                .unzip(),
-        };
+            None => parallel::collect(self.input.face_count(), |f| outline(&face_points(self.input, f))),
+            Some(forest) => {
+                let elements = last_elements(forest);
+                parallel::collect(elements.len(), |e| outline(&corners(&forest.positions, &elements[e])))
+            }
+        }
+        .into_iter()
+        .unzip();
         Candidates { centers, longest }
     }
 
@@ -167,10 +164,7 @@ impl<'a> QuadRefinement<'a> {
             let (_, longest) = outline(&points);
             exceeds(targets, f, longest) || self.wants_face(f, &points, longest)
         };
-        let mut wanted = false;
-        for batch in batches(input.face_count(), monitor) {
-            wanted = wanted || batch?.into_par_iter().any(wants);
-        }
+        let wanted = parallel::try_any(input.face_count(), monitor, wants)?;
         let all_quad = input.is_all_quad();
         if all_quad && !(wanted && self.options.max_levels > 0) {
             self.capped = if wanted { input.face_count() } else { 0 };
@@ -206,7 +200,7 @@ impl<'a> QuadRefinement<'a> {
             let (_, longest) = outline(&corners);
             exceeds(targets, e, longest) || self.demand.wants(corners, longest, number, level.root(e))
         };
-        found_in_runs(level.elements.len(), monitor, |e, found| found.extend(wants(e).then_some(e as u32)))
+        parallel::try_filter(level.elements.len(), monitor, wants)
     }
 
     /// Splits elements of the deepest level, if the limit allows it.
@@ -252,7 +246,7 @@ fn validate_targets(targets: &[f64], candidates: usize) -> Result<(), RefineErro
     if targets.len() != candidates {
         return Err(RefineError::TargetCount { given: targets.len(), wanted: candidates });
     }
-    match targets.par_iter().position_first(|&target| target.is_nan() || target <= 0.0) {
+    match targets.iter().position(|&target| target.is_nan() || target <= 0.0) {
         Some(candidate) => Err(RefineError::Target { candidate, value: targets[candidate] }),
         None => Ok(()),
     }

@@ -15,12 +15,10 @@
 //! three or more faces. There the other side is unknown, so faces at a curved surface's rim count as less curved than
 //! those inside.
 
-use rayon::prelude::*;
-
 use crate::geometry::Point;
 use crate::mesh::topology::EdgeUses;
 use crate::mesh::{EdgeId, Edges, Faces, PolygonMesh};
-use crate::monitor::batches;
+use crate::parallel;
 use crate::{Cancelled, Monitor};
 
 /// Degrees. A greater turn at one edge is a sharp edge of the design, not a curved surface cut into facets: exporters cut
@@ -37,7 +35,7 @@ const SHARP: f64 = 40.0;
 pub(super) fn turn_per_length(mesh: &PolygonMesh, monitor: &dyn Monitor) -> Result<Vec<f64>, Cancelled> {
     let edges = Edges::monitored(mesh, monitor)?;
     let uses = EdgeUses::of(&edges);
-    let normals = in_batches(mesh.face_count(), monitor, |f| area_normal(mesh, f))?;
+    let normals = parallel::try_collect(mesh.face_count(), monitor, |f| area_normal(mesh, f))?;
     let turns = turns(mesh, &edges, &uses, &normals, monitor)?;
     let face = |f: usize| {
         let corners = mesh.offsets[f] as usize..mesh.offsets[f + 1] as usize;
@@ -50,20 +48,7 @@ pub(super) fn turn_per_length(mesh: &PolygonMesh, monitor: &dyn Monitor) -> Resu
         });
         greatest_turn(at, normals[f])
     };
-    in_batches(mesh.face_count(), monitor, face)
-}
-
-/// What `make` gives for each number below `count`.
-fn in_batches<T: Send>(
-    count: usize,
-    monitor: &dyn Monitor,
-    make: impl Fn(usize) -> T + Sync + Send,
-) -> Result<Vec<T>, Cancelled> {
-    let mut all = Vec::with_capacity(count);
-    for batch in batches(count, monitor) {
-        all.par_extend(batch?.into_par_iter().map(&make));
-    }
-    Ok(all)
+    parallel::try_collect(mesh.face_count(), monitor, face)
 }
 
 /// The turn at each edge, in degrees; 0 where there is none that counts. Convex as seen from the side that is up in the
@@ -92,7 +77,7 @@ fn turns(
         let turn = libm::atan2(across.length(), m.dot(n)).to_degrees();
         if turn > SHARP { 0.0 } else { turn.copysign(across.dot(b - a)) }
     };
-    in_batches(edges.len(), monitor, turn)
+    parallel::try_collect(edges.len(), monitor, turn)
 }
 
 fn sorted<T: Ord>([a, b]: [T; 2]) -> [T; 2] {

@@ -1,7 +1,5 @@
 //! Where elements are to be refined: options and regions made ready for many questions.
 
-use rayon::prelude::*;
-
 use super::curvature::turn_per_length;
 use super::error::{SizingError, validate};
 use super::overlap::{Overlap, Probe};
@@ -9,7 +7,7 @@ use super::{Region, Target};
 use crate::geometry::{BoxIndex, Corners, Point};
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::{FaceId, HexMesh, PolygonMesh};
-use crate::monitor::batches;
+use crate::parallel;
 use crate::{Cancelled, Monitor};
 
 /// An element that asks whether it is to be refined: a quad with 4 corners, a hex with 8.
@@ -87,11 +85,7 @@ impl SizeField {
             Some(angle) => limits_by_curvature(input, angle, monitor)?,
             None => Vec::new(),
         };
-        let mut longest = 0.0_f64;
-        for batch in batches(input.face_count(), monitor) {
-            let children = batch?.into_par_iter().map(|f| longest_child_edge(input, f));
-            longest = longest.max(children.reduce(|| 0.0, f64::max));
-        }
+        let longest = parallel::try_greatest(input.face_count(), monitor, |f| longest_child_edge(input, f))?;
         Ok(Self::over(by_face, longest, options))
     }
 
@@ -107,13 +101,13 @@ impl SizeField {
         if options.curvature.is_some() {
             return Err(SizingError::CurvatureOfHexes);
         }
-        let edges = input.hexes.par_iter().map(|hex| {
-            let at = hex.map(|n| input.positions[n.index()]);
+        let longest_edge = parallel::greatest(input.hexes.len(), |h| {
+            let at = input.hexes[h].map(|n| input.positions[n.index()]);
             let lengths = EDGES.map(|[a, b]| at[usize::from(a)].distance_squared(at[usize::from(b)]));
             lengths.into_iter().fold(0.0, f64::max)
         });
         // An edge of a child is half of a mean of edges of its parent.
-        let longest = 0.5 * edges.reduce(|| 0.0, f64::max).sqrt();
+        let longest = 0.5 * longest_edge.sqrt();
         Ok(Self::over(Vec::new(), longest, options))
     }
 

@@ -2,8 +2,6 @@
 
 use std::borrow::Cow;
 
-use rayon::prelude::*;
-
 use super::TAG_NAMES;
 use crate::io::cell_view::{CellView, Cells};
 use crate::io::refusal::{code, refuse_writing};
@@ -11,6 +9,7 @@ use crate::io::tag_numbers::{cell_numbers, names_to_json};
 use crate::io::text::Text;
 use crate::io::vtk_cells::{LEVEL, PARENT, TAG, cell_type};
 use crate::io::{Document, Format, WriteError};
+use crate::parallel;
 
 /// Bytes of an array that are compressed together: enough that a block pays its own start, little
 /// enough that a small mesh keeps several threads busy.
@@ -88,7 +87,7 @@ fn regular_ends(count: usize, size: usize) -> Result<Vec<u32>, WriteError> {
 
 /// The ids as bytes of VTK's signed integers: of 32 bits where they fit.
 fn signed(ids: &[u32]) -> (&'static str, Cow<'_, [u8]>) {
-    if ids.par_iter().all(|&id| id <= i32::MAX as u32) {
+    if !parallel::any(ids.len(), |k| ids[k] > i32::MAX as u32) {
         return ("Int32", Cow::Borrowed(bytemuck::cast_slice(ids)));
     }
     let wide: Vec<i64> = ids.iter().map(|&id| i64::from(id)).collect();
@@ -111,10 +110,9 @@ impl File {
             self.header.word(attributes).word(" ");
         }
         self.header.word("format=\"appended\" offset=\"").integer(offset).word("\"/>\n");
-        let blocks: Vec<Vec<u8>> = data
-            .par_chunks(BLOCK)
-            .map(|block| miniz_oxide::deflate::compress_to_vec_zlib(block, COMPRESSION_LEVEL))
-            .collect();
+        let blocks: Vec<Vec<u8>> = parallel::blocks(data.len(), BLOCK, |block| {
+            miniz_oxide::deflate::compress_to_vec_zlib(&data[block], COMPRESSION_LEVEL)
+        });
         let sizes = [blocks.len(), BLOCK, data.len() % BLOCK];
         for size in sizes.into_iter().chain(blocks.iter().map(Vec::len)) {
             self.appended.extend_from_slice(&(size as u64).to_ne_bytes());

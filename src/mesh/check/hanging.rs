@@ -1,12 +1,12 @@
 //! Nodes inside edges and faces. Reads positions, which is why it stands apart from topology.
 
-use rayon::prelude::*;
 use rstar::{AABB, RTree, RTreeObject};
 
-use super::{CHUNK, Defect};
+use super::Defect;
 use crate::geometry::{Aabb, Point};
 use crate::mesh::topology::{Edges, used_nodes};
 use crate::mesh::{Faces, HexId, NodeId};
+use crate::parallel;
 
 /// Every node that lies inside an edge of which it is no end, among all edges: on a surface that passes,
 /// no cracks hide where several sheets meet either. Costs several times what a check costs, which looks
@@ -25,15 +25,16 @@ pub(super) fn inside(positions: &[Point], used: &[bool], edges: Vec<[NodeId; 2]>
         return Vec::new();
     }
     let tree = RTree::bulk_load(edges.into_iter().map(|ends| Segment::new(positions, ends)).collect());
-    let nodes = positions.par_iter().enumerate().with_min_len(CHUNK).filter(|&(n, _)| used[n]);
-    let found = nodes.flat_map_iter(|(n, &p)| {
+    parallel::gather(positions.len(), |n, found| {
+        if !used[n] {
+            return;
+        }
         let node = NodeId::new(n);
-        let near = tree.locate_in_envelope_intersecting(AABB::from_point(p.to_array()));
+        let near = tree.locate_in_envelope_intersecting(AABB::from_point(positions[n].to_array()));
         let mut edges: Vec<_> = near.filter(|s| s.holds(positions, node)).map(|s| s.ends).collect();
         edges.sort_unstable();
-        edges.into_iter().map(move |edge| Defect::HangingNode { node, edge })
-    });
-    found.collect()
+        found.extend(edges.into_iter().map(|edge| Defect::HangingNode { node, edge }));
+    })
 }
 
 /// The `used` nodes that lie inside one of `faces` of hexes, in order of nodes, then of hexes.
@@ -47,15 +48,16 @@ pub(super) fn inside_faces(
     }
     let patches = faces.into_iter().map(|(hex, nodes)| Patch::new(positions, hex, nodes));
     let tree = RTree::bulk_load(patches.collect());
-    let nodes = positions.par_iter().enumerate().with_min_len(CHUNK).filter(|&(n, _)| used[n]);
-    let found = nodes.flat_map_iter(|(n, &p)| {
+    parallel::gather(positions.len(), |n, found| {
+        if !used[n] {
+            return;
+        }
         let node = NodeId::new(n);
-        let near = tree.locate_in_envelope_intersecting(AABB::from_point(p.to_array()));
+        let near = tree.locate_in_envelope_intersecting(AABB::from_point(positions[n].to_array()));
         let mut faces: Vec<_> = near.filter(|f| f.holds(positions, node)).map(|f| (f.hex, f.nodes)).collect();
         faces.sort_unstable();
-        faces.into_iter().map(move |(hex, face)| Defect::HangingNodeInFace { node, face, hex })
-    });
-    found.collect()
+        found.extend(faces.into_iter().map(|(hex, face)| Defect::HangingNodeInFace { node, face, hex }));
+    })
 }
 
 /// A bilinear face.

@@ -11,14 +11,13 @@
 //!
 //! Time grows linearly with the mesh, but for the search trees over the boundary of step 8.
 
-use rayon::prelude::*;
-
-use super::{CHUNK, Defect, hanging, not_finite, repeated_node};
+use super::{Defect, hanging, not_finite, repeated_node};
 use crate::mesh::orientation::inverted_corners;
 use crate::mesh::topology::{
     Bins, HexEdges, HexFaces, Links, NodeSets, boundary_faces_at, faces_at_use, hex_of, side_nodes,
 };
 use crate::mesh::{EdgeId, FaceId, HexId, HexMesh, NodeId};
+use crate::parallel;
 
 /// Everything wrong with a hex mesh; empty for a conforming manifold with boundary, without loose nodes, whose
 /// hexes are the right way out at all corners.
@@ -32,9 +31,9 @@ pub fn check_hexes(mesh: &HexMesh) -> Vec<Defect> {
     defects.extend(per_hex(mesh, |h| shape(mesh, h)));
     defects.extend(same_hexes(mesh));
     let (node_count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
-    let (faces, edges) = rayon::join(|| HexFaces::of(node_count, hexes), || HexEdges::of(node_count, hexes));
-    let face_ids = (0..faces.nodes.len()).into_par_iter().with_min_len(CHUNK);
-    defects.par_extend(face_ids.filter_map(|f| face_defect(mesh, &faces, FaceId::new(f))));
+    let (faces, edges) =
+        parallel::join(|| HexFaces::of(node_count, hexes), || HexEdges::of(node_count, hexes));
+    defects.extend(parallel::filter_map(faces.nodes.len(), |f| face_defect(mesh, &faces, FaceId::new(f))));
     defects.extend(edge_defects(&faces, &edges));
     let links = Links::of(mesh, &faces, &edges);
     let unused = (0..node_count).filter(|&n| !links.is_used(n));
@@ -66,8 +65,8 @@ fn edges_around(face: &[NodeId; 4]) -> [[NodeId; 2]; 4] {
 }
 
 /// What `look` finds at each hex, in order of hexes.
-fn per_hex(mesh: &HexMesh, look: impl Fn(usize) -> Option<Defect> + Sync + Send) -> Vec<Defect> {
-    (0..mesh.hexes.len()).into_par_iter().with_min_len(CHUNK).filter_map(look).collect()
+fn per_hex(mesh: &HexMesh, look: impl Fn(usize) -> Option<Defect> + Sync) -> Vec<Defect> {
+    parallel::filter_map(mesh.hexes.len(), look)
 }
 
 /// Step 1 at one hex.
@@ -134,24 +133,22 @@ fn is_turned(a: [NodeId; 4], b: [NodeId; 4]) -> bool {
 /// Step 6.
 fn edge_defects(faces: &HexFaces, edges: &HexEdges) -> Vec<Defect> {
     let uses = edges.uses();
-    let ids = (0..edges.ends.len()).into_par_iter().with_min_len(CHUNK);
-    let mut shared: Vec<[FaceId; 2]> =
-        ids.clone().flat_map_iter(|e| sharing_three_nodes(faces, edges, &uses, EdgeId::new(e))).collect();
+    let mut shared: Vec<[FaceId; 2]> = parallel::gather(edges.ends.len(), |e, found| {
+        found.extend(sharing_three_nodes(faces, edges, &uses, EdgeId::new(e)));
+    });
     // Faces with three common nodes may have two common edges.
-    shared.par_sort_unstable();
+    parallel::sort(&mut shared);
     shared.dedup();
     let told = shared.into_iter().map(|pair| {
         let hexes = pair.map(|f| hex_of(faces.sides(f)[0]));
         Defect::ThreeSharedNodes { faces: pair.map(|f| faces.nodes[f.index()]), hexes }
     });
-    let rims = ids.filter_map(|e| {
+    let rims = parallel::filter_map(edges.ends.len(), |e| {
         let at = boundary_faces_at(faces, &uses, EdgeId::new(e));
         let hexes = || at.iter().map(|&f| hex_of(faces.sides(f)[0])).collect();
         (!matches!(at.len(), 0 | 2)).then(|| Defect::NonManifoldRim { edge: edges.ends[e], hexes: hexes() })
     });
-    let mut defects: Vec<Defect> = told.collect();
-    defects.par_extend(rims);
-    defects
+    told.chain(rims).collect()
 }
 
 /// The pairs of faces at an edge that have another node in common: two triples of nodes in a quad share an edge of

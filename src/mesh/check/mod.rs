@@ -23,11 +23,10 @@ pub use defect::{Defect, DefectCount, Severity, summary};
 pub use hanging::hanging_nodes;
 pub use hexes::check_hexes;
 
-use rayon::prelude::*;
-
 use super::topology::{EdgeUses, Edges, disagrees, edge_ids, non_manifold_nodes, used_nodes};
 use super::{EdgeId, FaceId, Faces, NodeId, PolygonMesh, QuadMesh};
 use crate::geometry::Point;
+use crate::parallel;
 
 /// Everything wrong with a quad mesh; empty for a conforming, oriented manifold without loose nodes.
 pub fn check_quads(mesh: &QuadMesh) -> Vec<Defect> {
@@ -59,8 +58,8 @@ pub fn check_faces(mesh: &PolygonMesh) -> Vec<Defect> {
 }
 
 fn not_finite(positions: &[Point]) -> Vec<Defect> {
-    let nodes = positions.par_iter().enumerate().with_min_len(CHUNK);
-    nodes.filter(|(_, p)| !p.is_finite()).map(|(n, _)| Defect::NotFinite { node: NodeId::new(n) }).collect()
+    let look = |n: usize| (!positions[n].is_finite()).then(|| Defect::NotFinite { node: NodeId::new(n) });
+    parallel::filter_map(positions.len(), look)
 }
 
 fn check(mesh: &impl Faces) -> Vec<Defect> {
@@ -71,7 +70,7 @@ fn check(mesh: &impl Faces) -> Vec<Defect> {
     defects.extend(not_finite(mesh.positions()));
     let all_finite = defects.is_empty();
     defects.extend(per_face(mesh, |f| face_shape(mesh, f)));
-    let (same, (edges, uses)) = rayon::join(
+    let (same, (edges, uses)) = parallel::join(
         || same_nodes::same_nodes(mesh),
         || {
             let edges = Edges::of(mesh);
@@ -80,7 +79,7 @@ fn check(mesh: &impl Faces) -> Vec<Defect> {
         },
     );
     let (at_edges, pinched) =
-        rayon::join(|| edge_defects(mesh, &edges, &uses), || non_manifold_nodes(mesh, &edges));
+        parallel::join(|| edge_defects(mesh, &edges, &uses), || non_manifold_nodes(mesh, &edges));
     let used = used_nodes(mesh);
     let unused = used.iter().enumerate().filter(|&(_, &u)| !u);
     defects.extend(same);
@@ -94,12 +93,9 @@ fn check(mesh: &impl Faces) -> Vec<Defect> {
     defects
 }
 
-/// Faces or nodes that one task looks at: enough to outweigh the cost of a task.
-const CHUNK: usize = 4096;
-
 /// What `look` finds at each face, in order of faces.
-fn per_face(mesh: &impl Faces, look: impl Fn(usize) -> Option<Defect> + Sync + Send) -> Vec<Defect> {
-    (0..mesh.face_count()).into_par_iter().with_min_len(CHUNK).filter_map(look).collect()
+fn per_face(mesh: &impl Faces, look: impl Fn(usize) -> Option<Defect> + Sync) -> Vec<Defect> {
+    parallel::filter_map(mesh.face_count(), look)
 }
 
 /// The first face whose corners are not where its offsets say.
@@ -162,8 +158,7 @@ fn has_no_area(positions: &[Point], nodes: &[NodeId]) -> bool {
 
 /// Step 5.
 fn edge_defects(mesh: &impl Faces, edges: &Edges, uses: &EdgeUses) -> Vec<Defect> {
-    let ids = (0..edges.len()).into_par_iter().with_min_len(CHUNK).map(EdgeId::new);
-    ids.filter_map(|e| edge_defect(mesh, edges, uses, e)).collect()
+    parallel::filter_map(edges.len(), |e| edge_defect(mesh, edges, uses, EdgeId::new(e)))
 }
 
 /// Step 5 at one edge.

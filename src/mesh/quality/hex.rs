@@ -11,14 +11,14 @@
 //! Verdict also asks the hex's centre for its scaled Jacobian; here [`is_positive`] answers for all of the inside.
 //! A hex with an edge of no length has scaled Jacobian 0 or less and the largest aspect that f32 holds.
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::bernstein::{Certainty, is_positive};
 use super::{Distribution, Summary};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::{EDGES, NEIGHBOURS};
-use crate::mesh::{HexMesh, NodeId, hex_volume};
+use crate::mesh::{HexMesh, hex_volume};
+use crate::parallel;
 
 /// Measures of each hex of a mesh, in order of hexes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,14 +45,13 @@ pub struct HexQuality {
 /// assert_eq!((quality.scaled_jacobian[0], quality.aspect[0], quality.total_volume), (1.0, 2.0, 2.0));
 /// ```
 pub fn hex_quality(mesh: &HexMesh) -> HexQuality {
-    let corners = |hex: &[NodeId; 8]| hex.map(|n| mesh.positions[n.index()]);
-    let volumes: Vec<f64> =
-        mesh.hexes.par_iter().with_min_len(1024).map(|hex| hex_volume(&corners(hex))).collect();
-    let hexes = || mesh.hexes.par_iter().with_min_len(1024);
+    let count = mesh.hexes.len();
+    let corners = |h: usize| mesh.hexes[h].map(|n| mesh.positions[n.index()]);
+    let volumes: Vec<f64> = parallel::collect(count, |h| hex_volume(&corners(h)));
     HexQuality {
-        scaled_jacobian: hexes().map(|hex| scaled_jacobian(&corners(hex)) as f32).collect(),
-        aspect: hexes().map(|hex| aspect(&corners(hex)).min(f64::from(f32::MAX)) as f32).collect(),
-        positive: hexes().map(|hex| is_positive(&corners(hex))).collect(),
+        scaled_jacobian: parallel::collect(count, |h| scaled_jacobian(&corners(h)) as f32),
+        aspect: parallel::collect(count, |h| aspect(&corners(h)).min(f64::from(f32::MAX)) as f32),
+        positive: parallel::collect(count, |h| is_positive(&corners(h))),
         total_volume: volumes.iter().sum(),
         volume: volumes.into_iter().map(|v| v as f32).collect(),
     }

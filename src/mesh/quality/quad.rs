@@ -12,12 +12,12 @@
 //!
 //! A quad without area has scaled Jacobian 0 and the largest aspect that f32 holds.
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Distribution;
 use crate::geometry::Point;
 use crate::mesh::{NodeId, QuadMesh};
+use crate::parallel;
 
 /// Measures of each quad of a mesh, in order of quads.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,24 +43,15 @@ pub struct QuadQuality {
 /// ```
 pub fn quad_quality(mesh: &QuadMesh) -> QuadQuality {
     let n = mesh.quads.len();
-    let mut all = QuadQuality {
-        scaled_jacobian: vec![0.0; n],
-        min_angle: vec![0.0; n],
-        max_angle: vec![0.0; n],
-        aspect: vec![0.0; n],
-    };
-    let angles = all.min_angle.par_iter_mut().zip(&mut all.max_angle);
-    let rest = all.scaled_jacobian.par_iter_mut().zip(&mut all.aspect);
-    mesh.quads.par_iter().zip(angles).zip(rest).with_min_len(1024).for_each(
-        |((quad, (min_angle, max_angle)), (scaled_jacobian, aspect))| {
-            let m = Measures::of(quad.map(|n: NodeId| mesh.positions[n.index()]));
-            *scaled_jacobian = m.scaled_jacobian as f32;
-            *min_angle = m.min_angle as f32;
-            *max_angle = m.max_angle as f32;
-            *aspect = m.aspect.min(f64::from(f32::MAX)) as f32;
-        },
-    );
-    all
+    let measures =
+        parallel::collect(n, |q| Measures::of(mesh.quads[q].map(|n: NodeId| mesh.positions[n.index()])));
+    let each = |of: fn(&Measures) -> f64| parallel::collect(n, |q| of(&measures[q]) as f32);
+    QuadQuality {
+        scaled_jacobian: each(|m| m.scaled_jacobian),
+        min_angle: each(|m| m.min_angle),
+        max_angle: each(|m| m.max_angle),
+        aspect: each(|m| m.aspect.min(f64::from(f32::MAX))),
+    }
 }
 
 /// The measures of one quad.

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
 use serde::Serialize;
+
+use crate::parallel;
 
 /// The ends, the mean and the low end of a set of values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -29,13 +30,10 @@ impl Summary {
         if values.is_empty() {
             return None;
         }
-        let blocks: Vec<(f32, f32, f64)> = values
-            .par_chunks(BLOCK)
-            .map(|block| {
-                let start = (f32::INFINITY, f32::NEG_INFINITY, 0.0);
-                block.iter().fold(start, |(lo, hi, sum), &v| (lo.min(v), hi.max(v), sum + f64::from(v)))
-            })
-            .collect();
+        let blocks: Vec<(f32, f32, f64)> = parallel::blocks(values.len(), BLOCK, |block| {
+            let start = (f32::INFINITY, f32::NEG_INFINITY, 0.0);
+            values[block].iter().fold(start, |(lo, hi, sum), &v| (lo.min(v), hi.max(v), sum + f64::from(v)))
+        });
         Some(Self {
             min: blocks.iter().map(|b| b.0).fold(f32::INFINITY, f32::min),
             max: blocks.iter().map(|b| b.1).fold(f32::NEG_INFINITY, f32::max),
@@ -72,9 +70,9 @@ impl Histogram {
     pub fn of(values: &[f32], range: Range<f32>, bins: usize) -> Self {
         let scale = bins as f32 / (range.end - range.start);
         let last = bins.saturating_sub(1);
-        let count = |block: &[f32]| {
+        let count = |block: Range<usize>| {
             let mut counts = vec![0u32; bins];
-            for v in block {
+            for v in &values[block] {
                 counts[(((v - range.start) * scale) as usize).min(last)] += 1;
             }
             counts
@@ -83,7 +81,7 @@ impl Histogram {
             a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
             a
         };
-        let counts = values.par_chunks(BLOCK).map(count).reduce(|| vec![0; bins], add);
+        let counts = parallel::blocks(values.len(), BLOCK, count).into_iter().fold(vec![0; bins], add);
         Self { min: range.start, max: range.end, counts }
     }
 }

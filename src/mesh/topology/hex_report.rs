@@ -1,11 +1,11 @@
 //! What kind of solid a hex mesh is.
 
-use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{Bins, HexEdges, HexFaces, Sets};
 use crate::mesh::numbering::hex::FACES_AT_EDGE;
 use crate::mesh::{EdgeId, FaceId, HexMesh, NodeId};
+use crate::parallel;
 
 /// What kind of solid a hex mesh is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -60,7 +60,7 @@ pub fn hex_report(mesh: &HexMesh, faces: &HexFaces, edges: &HexEdges) -> HexRepo
         rims.join(c.0, d.0, false);
     }
     let uses = edges.uses();
-    let is_odd = |e: &usize| !matches!(boundary_faces_at(faces, &uses, EdgeId::new(*e)).len(), 0 | 2);
+    let is_odd = |e: usize| !matches!(boundary_faces_at(faces, &uses, EdgeId::new(e)).len(), 0 | 2);
     let nodes = (0..node_count).filter(|&n| links.is_used(n)).count();
     HexReport {
         nodes,
@@ -71,7 +71,7 @@ pub fn hex_report(mesh: &HexMesh, faces: &HexFaces, edges: &HexEdges) -> HexRepo
         boundary_faces: boundary().count(),
         boundary_components: rims.roots().filter(|&r| links.on_boundary[r as usize]).count(),
         non_manifold_faces: faces.ids().filter(|&f| faces.sides(f).len() > 2).count(),
-        non_manifold_edges: (0..edges.ends.len()).into_par_iter().filter(is_odd).count(),
+        non_manifold_edges: parallel::filter(edges.ends.len(), is_odd).len(),
         non_manifold_nodes: links.odd().count(),
         components: parts.roots().filter(|&r| links.is_used(r as usize)).count(),
         euler: nodes as i64 - edges.ends.len() as i64 + faces.nodes.len() as i64 - mesh.hexes.len() as i64,

@@ -11,13 +11,12 @@
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use rayon::prelude::*;
-
 use super::blocks::{BLOCK, cut, offsets};
 use super::skeleton::Skeleton;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{EDGES, FACES};
+use crate::parallel;
 use crate::template::hex::{INSIDE, SIDES, Template, in_frame};
 use crate::{Cancelled, Monitor, Stage};
 
@@ -65,7 +64,7 @@ pub(super) fn divide(
     monitor.checkpoint(TEMPLATES, 0.0)?;
     let sides = Sides::of(positions.len(), hexes, monitor)?;
     monitor.checkpoint(TEMPLATES, 0.5)?;
-    let counts: Vec<u32> = hexes.par_iter().enumerate().map(|(h, hex)| sides.owned_nodes(h, hex)).collect();
+    let counts = parallel::collect(hexes.len(), |h| sides.owned_nodes(h, &hexes[h]));
     let mut nodes_of = offsets(counts.into_iter());
     let first_node = NodeId::new(positions.len()).0;
     NodeId::new(positions.len() + *nodes_of.last().expect("never empty") as usize);
@@ -95,12 +94,10 @@ impl Sides {
         let skeleton = Skeleton::new(node_count, hexes, |hex| &hex.hex);
         let edge_count = skeleton.edge_count();
         let count = edge_count + skeleton.face_count();
-        let none = || (0..count).into_par_iter().map(|_| AtomicU32::new(NONE)).collect::<Vec<_>>();
+        let none = || parallel::collect(count, |_| AtomicU32::new(NONE));
         let (owner, first) = (none(), none());
-        let of = |(h, hex): (usize, &Divided)| {
-            if h.is_multiple_of(BLOCK) && monitor.cancelled() {
-                return Err(Cancelled);
-            }
+        let of_hex = parallel::try_collect(hexes.len(), monitor, |h| {
+            let hex = &hexes[h];
             let (frame, mut sides) = (hex.frame(), [NONE; SIDES]);
             for part in hex.template.parts().iter().filter(|part| part.side < INSIDE) {
                 let side = usize::from(part.side);
@@ -112,9 +109,8 @@ impl Sides {
                 owner[number].fetch_min(h as u32, Relaxed);
                 sides[side] = number as u32;
             }
-            Ok(sides)
-        };
-        let of_hex = hexes.par_iter().enumerate().map(of).collect::<Result<_, _>>()?;
+            sides
+        })?;
         Ok(Self { of_hex, owner, first })
     }
 
@@ -131,7 +127,8 @@ impl Sides {
 
     /// Gives the divided edges and faces their first nodes.
     fn number(&self, hexes: &[Divided], nodes_of: &[u32]) {
-        hexes.par_iter().enumerate().for_each(|(h, hex)| {
+        parallel::for_each(hexes.len(), |h| {
+            let hex = &hexes[h];
             let mut next = nodes_of[h];
             for part in hex.template.parts().iter().filter(|part| self.owns(h, part.side)) {
                 if part.side < INSIDE {
@@ -169,13 +166,10 @@ fn place(
     let first_node = nodes_of[0];
     positions.resize(nodes_of[hexes.len()] as usize, Point::ZERO);
     let (old, new) = positions.split_at_mut(first_node as usize);
-    let blocks = cut(new, block_ends(nodes_of, first_node));
-    hexes.par_chunks(BLOCK).zip(blocks).enumerate().try_for_each(|(k, (hexes, points))| {
-        if monitor.cancelled() {
-            return Err(Cancelled);
-        }
+    let mut blocks = cut(new, block_ends(nodes_of, first_node));
+    parallel::try_for_each_mut(&mut blocks, monitor, |k, points| {
         let mut next = 0;
-        for (h, hex) in (k * BLOCK..).zip(hexes) {
+        for (h, hex) in hexes.iter().enumerate().skip(k * BLOCK).take(BLOCK) {
             let frame = hex.frame();
             let corners = frame.map(|n| old[n.index()]);
             for part in hex.template.parts().iter().filter(|part| sides.owns(h, part.side)) {
@@ -185,7 +179,6 @@ fn place(
                 next += usize::from(part.count);
             }
         }
-        Ok(())
     })
 }
 
@@ -198,19 +191,15 @@ fn write(
     monitor: &dyn Monitor,
 ) -> Result<Vec<[NodeId; 8]>, Cancelled> {
     let mut cells = vec![[NodeId(0); 8]; cells_of[hexes.len()] as usize];
-    let blocks = cut(&mut cells, block_ends(cells_of, 0));
-    hexes.par_chunks(BLOCK).zip(blocks).enumerate().try_for_each(|(k, (hexes, cells))| {
-        if monitor.cancelled() {
-            return Err(Cancelled);
-        }
+    let mut blocks = cut(&mut cells, block_ends(cells_of, 0));
+    parallel::try_for_each_mut(&mut blocks, monitor, |k, cells| {
         let mut cells = cells.iter_mut();
-        for (h, hex) in (k * BLOCK..).zip(hexes) {
+        for (h, hex) in hexes.iter().enumerate().skip(k * BLOCK).take(BLOCK) {
             let numbers = hex.template.number(&hex.frame(), |k| sides.first(h, hex, k, nodes_of));
             for (nodes, cell) in hex.template.place(&numbers, hex.symmetry).zip(cells.by_ref()) {
                 *cell = nodes;
             }
         }
-        Ok(())
     })?;
     Ok(cells)
 }

@@ -1,9 +1,8 @@
 //! The interface: where refined hexes and coarse ones meet.
 
-use rayon::prelude::*;
-
 use super::skeleton::{FACES_AT, Stars, one_way};
 use crate::mesh::NodeId;
+use crate::parallel;
 
 /// The nodes that refined and coarse hexes share, and the hexes there.
 pub(super) struct Interface<'a> {
@@ -36,8 +35,8 @@ impl<'a> Interface<'a> {
             place[node] = nodes.len() as u32;
             nodes.push(NodeId::new(node));
         }
-        let is_shell = |&hex: &u32| hexes[hex as usize].iter().any(|n| place[n.index()] != NONE);
-        let shell: Vec<u32> = (0..hexes.len() as u32).into_par_iter().filter(is_shell).collect();
+        let is_shell = |hex: usize| hexes[hex].iter().any(|n| place[n.index()] != NONE);
+        let shell = parallel::filter(hexes.len(), is_shell);
         // Nodes that are none of the interface share a last star, which is never asked for.
         let last = NodeId::new(nodes.len());
         let at = |node: NodeId| if place[node.index()] == NONE { last } else { NodeId(place[node.index()]) };
@@ -53,7 +52,7 @@ impl<'a> Interface<'a> {
 
     /// The faces between refined and coarse hexes, in the order of their least nodes.
     pub(super) fn faces(&self) -> Vec<InterfaceFace> {
-        let at = |star: &mut Star, place: usize| {
+        parallel::gather_with(self.nodes.len(), Star::default, |star, place, faces| {
             star.load(self, place);
             let least = |face: &&StarFace| face.rest.iter().all(|&n| n > star.node);
             let sides = star.faces.iter().filter(least).filter_map(|face| {
@@ -67,10 +66,8 @@ impl<'a> Interface<'a> {
                     coarse_face: coarse.1,
                 })
             });
-            sides.collect::<Vec<_>>()
-        };
-        let places = (0..self.nodes.len()).into_par_iter();
-        places.map_init(Star::default, at).flatten_iter().collect()
+            faces.extend(sides);
+        })
     }
 }
 

@@ -15,8 +15,6 @@
 //!
 //! Others have no template and are refused; the forest's closure prevents them. No hex is inverted.
 
-use rayon::prelude::*;
-
 use super::couple::role_of;
 use super::divide::{Divided, divide};
 use super::interface::{Interface, InterfaceFace};
@@ -28,6 +26,7 @@ use crate::Monitor;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES;
+use crate::parallel;
 use crate::template::hex::{COLUMN, CORNER, SLAB, Selected, select, symmetry_to};
 
 /// Cuts the coarse hexes at the interface, appending to `positions`, and says what their pieces become.
@@ -77,9 +76,11 @@ fn layer_hexes(
     for face in faces {
         refined_faces[face.coarse as usize] |= 1 << face.coarse_face;
     }
-    let coarse = interface.shell.par_iter().filter(|&&hex| !interface.refined[hex as usize]);
-    let found: Vec<(u32, Option<Divided>)> =
-        coarse.map(|&hex| (hex, layer_hex(interface, hex, refined_faces[hex as usize], octant))).collect();
+    let found: Vec<(u32, Option<Divided>)> = parallel::filter_map(interface.shell.len(), |k| {
+        let hex = interface.shell[k];
+        let is_coarse = !interface.refined[hex as usize];
+        is_coarse.then(|| (hex, layer_hex(interface, hex, refined_faces[hex as usize], octant)))
+    });
     let forbidden: Vec<u32> = found.iter().filter(|(_, cut)| cut.is_none()).map(|&(hex, _)| hex).collect();
     if !forbidden.is_empty() {
         return Err(forbidden);

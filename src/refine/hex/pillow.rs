@@ -17,8 +17,6 @@
 //! **Departure from the paper.** It shifts each node by half its shortest edge along the mean normal of the faces,
 //! which inverts hexes at concave corners; here it is [`THICKNESS`] of the shortest edge, towards the region.
 
-use rayon::prelude::*;
-
 use super::blocks::{BLOCK, offsets};
 use super::interface::{Interface, InterfaceFace, Star};
 use super::pinch::{Pinches, add_coarse};
@@ -28,7 +26,8 @@ use super::stage::StageError;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES;
-use crate::{Cancelled, Monitor, Stage};
+use crate::parallel;
+use crate::{Monitor, Stage};
 
 /// The stage that this file reports.
 const PILLOW: Stage = Stage("pillow");
@@ -134,15 +133,9 @@ impl Copies {
         monitor: &dyn Monitor,
     ) -> Result<Self, StageError> {
         let count = interface.nodes.len();
-        let block = |b: usize| {
-            if monitor.cancelled() {
-                return Err(Cancelled);
-            }
-            let places = b * BLOCK..((b + 1) * BLOCK).min(count);
-            Ok(Self::block(positions, interface, pinches, ridges, places))
-        };
-        let blocks: Vec<Block> =
-            (0..count.div_ceil(BLOCK)).into_par_iter().map(block).collect::<Result<_, _>>()?;
+        let blocks: Vec<Block> = parallel::try_blocks(count, BLOCK, monitor, |places| {
+            Self::block(positions, interface, pinches, ridges, places)
+        })?;
         let mut more = blocks.iter().flat_map(|block| block.more.iter().copied()).collect::<Vec<_>>();
         if !more.is_empty() {
             more.sort_unstable();

@@ -16,11 +16,10 @@
 //! faces would meet twice. The coarse side is joined unless that fails there; if the refined side fails too,
 //! a coarse hex at the edge must be refined as well.
 
-use rayon::prelude::*;
-
 use super::interface::{Interface, Star};
 use super::regions::{Regions, has_edge};
 use crate::mesh::NodeId;
+use crate::parallel;
 
 /// A pinched edge.
 #[derive(Clone, Copy)]
@@ -44,12 +43,10 @@ pub(super) struct Pinches {
 impl Pinches {
     /// Finds the pinched edges; the coarse runs are joined at all of them.
     pub(super) fn find(interface: &Interface) -> Self {
-        let at = |star: &mut Star, place: usize| {
+        let edges = parallel::gather_with(interface.nodes.len(), Star::default, |star, place, edges| {
             star.load(interface, place);
-            pinches_above(star)
-        };
-        let places = (0..interface.nodes.len()).into_par_iter();
-        let edges: Vec<Pinch> = places.map_init(Star::default, at).flatten_iter().collect();
+            edges.extend(pinches_above(star));
+        });
         let mut at_node = vec![false; interface.nodes.len()];
         for place in edges.iter().flat_map(|edge| edge.ends).filter_map(|end| interface.place(end)) {
             at_node[place] = true;

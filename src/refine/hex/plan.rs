@@ -5,8 +5,6 @@
 //! 3. Level by level, refine the elements that the sizing asks for.
 //! 4. Close the forest: whole families around a volume node, strong balance, what the method's templates fit.
 
-use rayon::prelude::*;
-
 use super::options::{Added, HexOptions, HexRefineError, Method};
 use crate::forest::HexForest;
 use crate::geometry::Point;
@@ -14,7 +12,7 @@ use crate::mesh::check::{Defect, summary};
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::{Certainty, is_positive};
 use crate::mesh::{HexId, HexMesh, NodeId, check_hexes, orient_hexes};
-use crate::monitor::batches;
+use crate::parallel;
 use crate::sizing::{SizeField, SizeOptions, SizedElement};
 use crate::{Monitor, Stage};
 
@@ -162,11 +160,7 @@ impl Level<'_> {
         if field.is_idle_from(self.number) {
             return Ok(Vec::new());
         }
-        let mut found = Vec::new();
-        for batch in batches(self.elements.len(), monitor) {
-            found.par_extend(batch?.into_par_iter().filter(|&e| self.wants(field, e)).map(|e| e as u32));
-        }
-        Ok(found)
+        Ok(parallel::try_filter(self.elements.len(), monitor, |e| self.wants(field, e))?)
     }
 
     fn wants(&self, field: &SizeField, e: usize) -> bool {
@@ -184,7 +178,7 @@ fn oriented(input: &HexMesh) -> Result<(HexMesh, usize), HexRefineError> {
         return Err(HexRefineError::NoHexes);
     }
     let mut mesh = input.clone();
-    let ids_are_good = mesh.hexes.par_iter().flatten().all(|n| n.index() < mesh.positions.len());
+    let ids_are_good = mesh.hexes.as_flattened().iter().all(|n| n.index() < mesh.positions.len());
     let turned = if ids_are_good { orient_hexes(&mut mesh)? } else { 0 };
     let mut defects = check_hexes(&mesh);
     defects.retain(|defect| !matches!(defect, Defect::UnusedNode { .. }));
@@ -192,11 +186,11 @@ fn oriented(input: &HexMesh) -> Result<(HexMesh, usize), HexRefineError> {
         let kinds = summary(&defects).iter().map(ToString::to_string).collect();
         return Err(HexRefineError::InvalidInput(kinds));
     }
-    let is_doubtful = |(h, hex): (usize, &[NodeId; 8])| {
-        let corners = hex.map(|n| mesh.positions[n.index()]);
+    let is_doubtful = |h: usize| {
+        let corners = mesh.hexes[h].map(|n| mesh.positions[n.index()]);
         (is_positive(&corners) != Certainty::Positive).then_some(HexId::new(h))
     };
-    let doubtful: Vec<HexId> = mesh.hexes.par_iter().enumerate().filter_map(is_doubtful).collect();
+    let doubtful: Vec<HexId> = parallel::filter_map(mesh.hexes.len(), is_doubtful);
     if !doubtful.is_empty() {
         return Err(HexRefineError::NotPositive(doubtful));
     }
@@ -215,7 +209,7 @@ fn drop_unused_nodes(mesh: &mut HexMesh) {
     }
     let mut used = is_used.iter();
     mesh.positions.retain(|_| *used.next().expect("a flag a node"));
-    mesh.hexes.par_iter_mut().flatten().for_each(|n| *n = number[n.index()]);
+    parallel::for_each_mut(&mut mesh.hexes, |_, hex| *hex = hex.map(|n| number[n.index()]));
 }
 
 /// Refuses options out of range.

@@ -17,8 +17,6 @@
 //! the same one all along: else a face of the layer would cut the ridge off. If both sides can, it is the one that
 //! leaves the interface more steeply, since the other may slide along the interface's own plane.
 
-use rayon::prelude::*;
-
 use super::interface::{Interface, Star, StarFace};
 use super::pillow::THICKNESS;
 use super::pinch::Pinches;
@@ -28,6 +26,7 @@ use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES;
 use crate::mesh::topology::Sets;
+use crate::parallel;
 
 /// The cosine of the angle between boundary faces beyond which their edge is a ridge: 30 degrees.
 const RIDGE: f64 = 0.866;
@@ -302,7 +301,7 @@ impl Ridges {
                 refined_is_steeper: steepness(true) - steepness(false),
             })
         };
-        let found: Vec<Option<AtNode>> = (0..count).into_par_iter().map_init(buffers, at).collect();
+        let found: Vec<Option<AtNode>> = parallel::collect_with(count, buffers, at);
         let mut runs = Sets::new(count);
         for node in found.iter().flatten() {
             for &other in &node.others {

@@ -4,11 +4,10 @@
 //! walk over the list of its node. Numbers follow the nodes, and at a node the order of the hexes, so they
 //! are the same for any number of threads.
 
-use rayon::prelude::*;
-
 use super::blocks::BLOCK;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{CORNERS, FACES};
+use crate::parallel;
 
 /// The neighbours of each corner along x, y and z.
 pub(super) const NEIGHBOURS: [[u8; 3]; 8] = {
@@ -176,24 +175,19 @@ impl<const K: usize> Lists<K> {
     /// `at(node, found)` calls `found` with the rest of each set that has `node`; those with a lesser node
     /// are passed over, and so is what was found before.
     fn collect(node_count: usize, at: impl Fn(usize, &mut dyn FnMut([NodeId; K])) + Sync) -> Self {
-        let blocks: Vec<(Vec<u32>, Vec<[NodeId; K]>)> = (0..node_count.div_ceil(BLOCK))
-            .into_par_iter()
-            .map(|block| {
-                let nodes = block * BLOCK..((block + 1) * BLOCK).min(node_count);
-                let (mut counts, mut rest) = (Vec::with_capacity(nodes.len()), Vec::new());
-                for node in nodes {
-                    let first = rest.len();
-                    at(node, &mut |others: [NodeId; K]| {
-                        if others.iter().all(|other| other.index() > node) && !rest[first..].contains(&others)
-                        {
-                            rest.push(others);
-                        }
-                    });
-                    counts.push((rest.len() - first) as u32);
-                }
-                (counts, rest)
-            })
-            .collect();
+        let blocks: Vec<(Vec<u32>, Vec<[NodeId; K]>)> = parallel::blocks(node_count, BLOCK, |nodes| {
+            let (mut counts, mut rest) = (Vec::with_capacity(nodes.len()), Vec::new());
+            for node in nodes {
+                let first = rest.len();
+                at(node, &mut |others: [NodeId; K]| {
+                    if others.iter().all(|other| other.index() > node) && !rest[first..].contains(&others) {
+                        rest.push(others);
+                    }
+                });
+                counts.push((rest.len() - first) as u32);
+            }
+            (counts, rest)
+        });
         let mut start = Vec::with_capacity(node_count + 1);
         let mut rest = Vec::with_capacity(blocks.iter().map(|(_, rest)| rest.len()).sum());
         let mut end = 0;

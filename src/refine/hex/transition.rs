@@ -1,11 +1,10 @@
 //! The end of a stage: divides the refined hexes and the transition hexes, and puts the next mesh together.
 
-use rayon::prelude::*;
-
 use super::divide::{Divided, Division, divide};
 use super::stage::{NO_ELEMENT, NO_OCTANT, Stage, StageMesh, StageReport};
 use crate::geometry::Point;
 use crate::mesh::NodeId;
+use crate::parallel;
 use crate::template::hex::Template;
 use crate::{Cancelled, Monitor};
 
@@ -39,14 +38,14 @@ pub(super) fn assemble(
     transitions: &Transitions,
     monitor: &dyn Monitor,
 ) -> Result<Stage, Cancelled> {
-    let all = || (0..hexes.len() as u32).into_par_iter();
-    let divided_ids: Vec<u32> = all().filter(|&hex| refined[hex as usize]).collect();
-    let is_kept = |&hex: &u32| !refined[hex as usize] && transitions.replaced.binary_search(&hex).is_err();
-    let kept: Vec<u32> = all().filter(is_kept).collect();
-    let mut divided: Vec<Divided> = divided_ids
-        .par_iter()
-        .map(|&hex| Divided { hex: hexes[hex as usize], template: split, symmetry: 0 })
-        .collect();
+    let divided_ids = parallel::filter(hexes.len(), |hex| refined[hex]);
+    let kept = parallel::filter(hexes.len(), |hex| {
+        !refined[hex] && transitions.replaced.binary_search(&(hex as u32)).is_err()
+    });
+    let mut divided = parallel::collect(divided_ids.len(), |k| {
+        let hex = hexes[divided_ids[k] as usize];
+        Divided { hex, template: split, symmetry: 0 }
+    });
     divided.extend(transitions.divided.iter().map(|transition| transition.divided));
     let division = divide(&mut positions, &divided, monitor)?;
     drop(divided);
@@ -59,9 +58,10 @@ pub(super) fn assemble(
     parts.add_children(&divided_ids, children);
     parts.add_transitions(&division, divided_ids.len(), transitions);
     let Parts { mut mesh, from, .. } = parts;
-    mesh.hexes.par_extend(&division.cells[..children * divided_ids.len()]);
+    let (split_cells, transition_cells) = division.cells.split_at(children * divided_ids.len());
+    parallel::extend_from_slice(&mut mesh.hexes, split_cells);
     mesh.hexes.extend(transitions.whole.iter().map(|&(_, hex)| hex));
-    mesh.hexes.par_extend(&division.cells[children * divided_ids.len()..]);
+    parallel::extend_from_slice(&mut mesh.hexes, transition_cells);
     mesh.positions = positions;
     let report = StageReport {
         refined: divided_ids.len(),
@@ -94,26 +94,26 @@ impl Parts<'_> {
     /// Takes hexes that stay.
     fn keep(&mut self, hexes: &[[NodeId; 8]], kept: &[u32]) {
         let Self { before, mesh, from } = self;
-        mesh.hexes.par_extend(kept.par_iter().map(|&hex| hexes[hex as usize]));
-        mesh.octant.par_extend(kept.par_iter().map(|&hex| before.octant[hex as usize]));
-        mesh.level.par_extend(kept.par_iter().map(|&hex| before.level[hex as usize]));
-        mesh.root.par_extend(kept.par_iter().map(|&hex| before.root[hex as usize]));
-        mesh.element.par_extend(kept.par_iter().map(|&hex| before.element[hex as usize]));
-        from.par_extend(kept);
+        let (count, hex) = (kept.len(), |k: usize| kept[k] as usize);
+        parallel::extend(&mut mesh.hexes, count, |k| hexes[hex(k)]);
+        parallel::extend(&mut mesh.octant, count, |k| before.octant[hex(k)]);
+        parallel::extend(&mut mesh.level, count, |k| before.level[hex(k)]);
+        parallel::extend(&mut mesh.root, count, |k| before.root[hex(k)]);
+        parallel::extend(&mut mesh.element, count, |k| before.element[hex(k)]);
+        from.extend_from_slice(kept);
     }
 
     /// Describes the children of the refined hexes. Only eight of them are octants.
     fn add_children(&mut self, parents: &[u32], children: usize) {
         let Self { before, mesh, from } = self;
         let count = children * parents.len();
-        let all = || (0..count).into_par_iter();
         let parent = |child: usize| parents[child / children] as usize;
         let octant = |child: usize| if children == 8 { (child % 8) as u8 } else { NO_OCTANT };
-        mesh.octant.par_extend(all().map(octant));
-        mesh.level.par_extend(all().map(|child| before.level[parent(child)].saturating_add(1)));
-        mesh.root.par_extend(all().map(|child| before.root[parent(child)]));
-        mesh.element.par_extend(all().map(|child| child as u32));
-        from.par_extend(all().map(|child| parents[child / children]));
+        parallel::extend(&mut mesh.octant, count, octant);
+        parallel::extend(&mut mesh.level, count, |child| before.level[parent(child)].saturating_add(1));
+        parallel::extend(&mut mesh.root, count, |child| before.root[parent(child)]);
+        parallel::extend(&mut mesh.element, count, |child| child as u32);
+        parallel::extend(from, count, |child| parents[child / children]);
     }
 
     /// Describes the transition hexes: those that stay, then those that the division made after `refined` hexes.
@@ -137,5 +137,5 @@ impl Parts<'_> {
 fn nodes_of(hexes: &[[NodeId; 8]], node_count: usize) -> Vec<NodeId> {
     let mut has = vec![false; node_count];
     hexes.as_flattened().iter().for_each(|node| has[node.index()] = true);
-    (0..node_count).into_par_iter().filter(|&node| has[node]).map(NodeId::new).collect()
+    parallel::filter_map(node_count, |node| has[node].then(|| NodeId::new(node)))
 }

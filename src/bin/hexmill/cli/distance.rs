@@ -1,7 +1,7 @@
 //! How far a mesh and a surface are from each other.
 
 use hexmill::geometry::{NearestTriangle, Point};
-use rayon::prelude::*;
+use hexmill::parallel;
 use serde::Serialize;
 
 /// A surface of triangles.
@@ -61,8 +61,8 @@ impl Distance {
     fn from_to(from: &Triangles, to: &Triangles) -> Self {
         let nearest = NearestTriangle::new(to.corners());
         let samples = from.samples();
-        let distance = |&p: &Point| nearest.closest_point(p).map_or(f64::INFINITY, |q| q.distance(p));
-        let distances: Vec<f64> = samples.par_iter().map(distance).collect();
+        let distance = |p: Point| nearest.closest_point(p).map_or(f64::INFINITY, |q| q.distance(p));
+        let distances: Vec<f64> = parallel::collect(samples.len(), |k| distance(samples[k]));
         let farthest = (0..samples.len()).max_by(|&i, &j| distances[i].total_cmp(&distances[j]));
         let count = samples.len() as f64;
         Self {

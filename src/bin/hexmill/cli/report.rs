@@ -52,7 +52,7 @@ impl Report {
             output: None,
             mesh,
             distance: None,
-            threads: rayon::current_num_threads(),
+            threads: hexmill::parallel::thread_count(),
             stages: Vec::new(),
             seconds: 0.0,
             peak_memory_bytes: None,

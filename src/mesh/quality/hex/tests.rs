@@ -1,4 +1,5 @@
 use super::*;
+use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{CORNERS, SYMMETRIES};
 
 fn cube() -> [Point; 8] {

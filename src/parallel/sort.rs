@@ -1,0 +1,42 @@
+//! Sorting.
+
+use super::{for_each_mut, join};
+
+/// So many items are sorted by one thread.
+const FEW: usize = 1 << 14;
+
+/// Sorts `items`. Equal items are alike, so that their order does not matter.
+pub fn sort<T: Ord + Copy + Send + Sync>(items: &mut [T]) {
+    if items.len() <= FEW {
+        return items.sort_unstable();
+    }
+    let mut runs: Vec<&mut [T]> = items.chunks_mut(FEW).collect();
+    for_each_mut(&mut runs, |_, run| run.sort_unstable());
+    let mut merged = items.to_vec();
+    merge_runs(items, &mut merged, false);
+}
+
+/// Merges the sorted runs of [`FEW`] items, into `other` if `there`, else into `items`. Both hold the runs.
+fn merge_runs<T: Ord + Copy + Send + Sync>(items: &mut [T], other: &mut [T], there: bool) {
+    let runs = items.len().div_ceil(FEW);
+    if runs <= 1 {
+        return;
+    }
+    let middle = runs / 2 * FEW;
+    let (left, right) = items.split_at_mut(middle);
+    let (other_left, other_right) = other.split_at_mut(middle);
+    join(|| merge_runs(left, other_left, !there), || merge_runs(right, other_right, !there));
+    if there { merge(left, right, other) } else { merge(other_left, other_right, items) }
+}
+
+/// Merges two sorted runs.
+fn merge<T: Ord + Copy>(a: &[T], b: &[T], into: &mut [T]) {
+    let (mut a, mut b) = (a.iter().copied().peekable(), b.iter().copied().peekable());
+    for place in into {
+        let from_a = match (a.peek(), b.peek()) {
+            (Some(x), Some(y)) => x <= y,
+            (x, _) => x.is_some(),
+        };
+        *place = if from_a { a.next() } else { b.next() }.expect("as many places as items");
+    }
+}

@@ -1,0 +1,143 @@
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::AtomicUsize;
+
+use super::*;
+use crate::{Silent, Stage};
+
+/// Runs `check` without threads to share the work, and with several.
+fn on_pools(check: impl Fn() + Sync) {
+    for threads in [1, 2, 3] {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool").install(&check);
+    }
+}
+
+/// Counts that end at blocks, beside them, and in many of them.
+const COUNTS: [usize; 8] = [0, 1, 2, 63, 64, 65, 4096 * 64, 4096 * 65 + 1];
+
+#[test]
+fn loops_keep_the_order_of_the_numbers() {
+    on_pools(|| {
+        for count in COUNTS {
+            let thrice: Vec<usize> = (0..count).map(|k| 3 * k).collect();
+            assert_eq!(collect(count, |k| 3 * k), thrice);
+            assert_eq!(try_collect(count, &Silent, |k| 3 * k), Ok(thrice.clone()));
+            let mut grown = vec![7];
+            grow(&mut grown, count, |before, k| before[0] * k);
+            assert!(grown[1..].iter().enumerate().all(|(k, &n)| n == 7 * k) && grown.len() == count + 1);
+            let every_third: Vec<u32> = (0..count as u32).step_by(3).collect();
+            assert_eq!(filter(count, |k| k.is_multiple_of(3)), every_third);
+            let mut twice = vec![0; count];
+            for_each_mut(&mut twice, |k, n| *n = 2 * k);
+            extend_from_slice(&mut twice, &thrice);
+            assert!((0..count).all(|k| twice[k] == 2 * k && twice[count + k] == 3 * k));
+            assert_eq!(any(count, |k| k + 1 == count), count > 0);
+            assert_eq!(greatest(count, |k| k as f64), count.saturating_sub(1) as f64);
+        }
+    });
+}
+
+#[test]
+fn what_is_gathered_is_in_order_whatever_each_number_adds() {
+    on_pools(|| {
+        for count in COUNTS {
+            let text =
+                |k: usize, found: &mut Vec<String>| found.extend((0..k % 3).map(|n| format!("{k}.{n}")));
+            let mut wanted = Vec::new();
+            (0..count).for_each(|k| text(k, &mut wanted));
+            assert!(gather(count, text) == wanted);
+            assert!(try_gather(count, &Silent, text) == Ok(wanted));
+        }
+    });
+}
+
+#[test]
+fn blocks_are_the_same_for_any_number_of_threads() {
+    on_pools(|| {
+        let sums: Vec<(usize, usize)> = blocks(10, 4, |block| (block.start, block.sum()));
+        assert_eq!(sums, [(0, 6), (4, 22), (8, 17)]);
+        assert_eq!(blocks(0, 4, |block| block.len()), [0; 0]);
+    });
+}
+
+#[test]
+fn each_block_gets_something_of_its_own_to_work_with() {
+    on_pools(|| {
+        let numbers = collect_with(1000, Vec::new, |seen: &mut Vec<usize>, k| {
+            let follows = seen.last().is_none_or(|&last| last + 1 == k);
+            seen.push(k);
+            (k, follows)
+        });
+        assert!(numbers.iter().enumerate().all(|(k, &(n, follows))| n == k && follows));
+    });
+}
+
+#[test]
+fn both_sides_of_a_join_give_their_results() {
+    on_pools(|| {
+        let (a, (b, c)) = join(|| vec![1], || join(|| "two", || 3));
+        assert_eq!((a, b, c), (vec![1], "two", 3));
+    });
+}
+
+#[test]
+fn sorting_merges_any_number_of_runs() {
+    on_pools(|| {
+        for count in [0, 5, 16384, 16385, 40000, 16384 * 3, 16384 * 5 + 7] {
+            let scrambled = |k: usize| (k as u32).wrapping_mul(2_654_435_761) % 50_000;
+            let mut items: Vec<u32> = (0..count).map(scrambled).collect();
+            let mut wanted = items.clone();
+            wanted.sort_unstable();
+            sort(&mut items);
+            assert!(items == wanted, "{count}");
+        }
+    });
+}
+
+/// Says stop after some questions.
+struct StopsAfter(usize, AtomicUsize);
+
+impl Monitor for StopsAfter {
+    fn progress(&self, _: Stage, _: f64) {}
+    fn cancelled(&self) -> bool {
+        self.1.fetch_add(1, Relaxed) >= self.0
+    }
+}
+
+#[test]
+fn what_is_stopped_appends_nothing_and_soon_ends() {
+    on_pools(|| {
+        let (stop, made) = (StopsAfter(2, AtomicUsize::new(0)), AtomicUsize::new(0));
+        let mut all = vec![1, 2];
+        let result = try_extend(&mut all, 64_000, &stop, |k| made.fetch_add(1, Relaxed) + k);
+        assert_eq!((result, all), (Err(Cancelled), vec![1, 2]));
+        assert_eq!(made.into_inner(), 2000, "the blocks that were allowed, and no others");
+        let stop = StopsAfter(0, AtomicUsize::new(0));
+        assert_eq!(try_for_each_mut(&mut [1, 2], &stop, |_, n| *n = 9), Err(Cancelled));
+        assert_eq!(try_blocks(10, 1, &stop, |block| block.len()), Err(Cancelled));
+    });
+}
+
+#[test]
+fn a_panic_leaves_no_half_made_items() {
+    on_pools(|| {
+        let life = Arc::new(());
+        let mut all = vec![life.clone()];
+        let make = |k: usize| if k == 999 { panic!("at {k}") } else { life.clone() };
+        let caught = catch_unwind(AssertUnwindSafe(|| extend(&mut all, 1000, make)));
+        assert!(caught.is_err() && all.len() == 1);
+        let caught = catch_unwind(AssertUnwindSafe(|| filter_map(1000, |k| Some(make(k)))));
+        assert!(caught.is_err());
+    });
+}
+
+#[test]
+fn parts_are_moved_and_dropped_once() {
+    on_pools(|| {
+        let life = Arc::new(());
+        let all = gather(1000, |k, found| found.extend(std::iter::repeat_n(life.clone(), k % 4)));
+        assert_eq!((all.len(), Arc::strong_count(&life)), (1500, 1501));
+        drop(all);
+        assert_eq!(Arc::strong_count(&life), 1);
+    });
+}
