@@ -35,7 +35,7 @@ fn shell(input: &HexMesh, levels: usize) -> HexForest {
         let marked: Vec<u32> = elements.filter(|(_, e)| passes(e)).map(|(k, _)| k as u32).collect();
         forest.split(depth, &marked);
     }
-    forest.close(None, &Silent).expect("nobody stops it");
+    forest.close(None, u64::MAX, &Silent).expect("nobody stops it");
     forest
 }
 

@@ -6,7 +6,8 @@
 //!
 //! 1. *Families* (the paper's rule of the volume node, section 3): if a child of an element is refined, so are its
 //!    seven siblings. Then every face node between two levels has four transition elements.
-//! 2. *Strong balance*: every element that shares a node with a doubly refined element of its level is refined.
+//! 2. *Strong balance*: every element that shares a node with a doubly refined element of its level is refined; level 0
+//!    has no families, but is balanced like any other.
 //! 3. *Method*: what the method admits at each corner of an element beside the interface ([`Admits`]). Where it
 //!    does not, one of the elements at the corner's node becomes doubly refined: the one with the most interface
 //!    faces there. (Adding the element whose corner is not admitted fills far more.)
@@ -19,10 +20,9 @@ use std::collections::VecDeque;
 use super::HexForest;
 use super::octree::{HexLevel, Sides};
 use crate::mesh::NodeId;
-use crate::mesh::numbering::hex::{EDGES, FACES};
+use crate::mesh::numbering::hex::{EDGES_AT, FACES_AT};
 use crate::mesh::topology::Bins;
-use crate::parallel;
-use crate::{Cancelled, Monitor};
+use crate::{Cancelled, Monitor, parallel};
 
 /// What a method can make conform at a corner of an element that is not doubly refined: of the three faces and the
 /// three edges there, `faces` and `edges` belong to a doubly refined element.
@@ -37,6 +37,22 @@ pub fn admits_method_one(faces: usize, edges: usize) -> bool {
     }
 }
 
+/// Why a forest was not closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CloseError {
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// There would be more leaves than allowed.
+    #[error("level {level} would bring the forest to {leaves} leaves or more")]
+    TooLarge {
+        /// The level that would do so.
+        level: u8,
+        /// How many leaves there would be, at least.
+        leaves: u64,
+    },
+}
+
 /// How many elements closure refined, by rule.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -49,81 +65,114 @@ pub struct Closure {
     pub method: usize,
 }
 
-/// Families that are split before the monitor is asked again.
+/// Families that are split, or nodes that are looked at, before the monitor is asked again.
 const BATCH: usize = 1 << 14;
 
 impl HexForest {
     /// Refines elements until the forest obeys the rules of families and strong balance, and those of a method.
     ///
     /// # Errors
-    /// If the monitor stops it.
-    pub fn close(&mut self, method: Option<Admits>, monitor: &dyn Monitor) -> Result<Closure, Cancelled> {
-        let mut wanted = Wanted::default();
-        for depth in 0..self.levels.len() {
-            let families: Vec<u32> = self.levels[depth].refined.iter().map(|e| e / 8).collect();
-            wanted.add(self, depth, &families);
+    /// If that makes more than `limit` leaves, or the monitor stops it.
+    pub fn close(
+        &mut self,
+        method: Option<Admits>,
+        limit: u64,
+        monitor: &dyn Monitor,
+    ) -> Result<Closure, CloseError> {
+        let mut closing = Closing { forest: self, wanted: Wanted::default(), limit, monitor };
+        closing.close(method)
+    }
+}
+
+/// A forest that is being closed.
+struct Closing<'a> {
+    forest: &'a mut HexForest,
+    wanted: Wanted,
+    limit: u64,
+    monitor: &'a dyn Monitor,
+}
+
+impl Closing<'_> {
+    fn close(&mut self, method: Option<Admits>) -> Result<Closure, CloseError> {
+        for depth in 0..self.forest.levels.len() {
+            self.monitor.proceed()?;
+            let families: Vec<u32> = self.forest.levels[depth].refined.iter().map(|e| e / 8).collect();
+            self.wanted.add(self.forest, depth, &families);
         }
         let mut added = Closure::default();
         loop {
             let before = added;
-            for depth in (0..self.levels.len()).rev() {
-                let (halfway, needed) = self.incomplete(depth, &wanted);
-                added.families += self.complete(depth, &halfway, &mut wanted, monitor)?;
-                added.balance += self.complete(depth, &needed, &mut wanted, monitor)?;
-                if let Some(admits) = method {
-                    let filling = Interface::new(self, depth).and_then(|i| i.filling(admits));
-                    let filling = filling.unwrap_or_default();
-                    added.method += self.complete(depth, &filling, &mut wanted, monitor)?;
+            for depth in (0..self.forest.levels.len()).rev() {
+                let (halfway, needed) = self.incomplete(depth)?;
+                added.families += self.complete(depth, &halfway)?;
+                added.balance += self.complete(depth, &needed)?;
+                if let Some(admits) = method
+                    && let Some(interface) = Interface::new(self.forest, depth)
+                {
+                    let filling = interface.filling(admits, self.monitor)?;
+                    added.method += self.complete(depth, &filling)?;
                 }
             }
+            added.balance += self.balance_base()?;
             if added == before {
                 return Ok(added);
             }
         }
     }
 
+    /// Refuses the split of so many elements of a level if it makes too many leaves.
+    fn check_size(&self, level: usize, elements: usize) -> Result<(), CloseError> {
+        let leaves = self.forest.leaf_count() as u64 + 7 * elements as u64;
+        if leaves > self.limit {
+            return Err(CloseError::TooLarge { level: level as u8, leaves });
+        }
+        Ok(())
+    }
+
+    /// Refines the elements of level 0 that balance wants refined; returns how many.
+    fn balance_base(&mut self) -> Result<usize, CloseError> {
+        self.monitor.proceed()?;
+        let base = &self.forest.base;
+        let coarse = (0..base.elements.len() as u32).filter(|&e| !base.is_refined[e as usize]);
+        let needed: Vec<u32> = coarse.filter(|&e| self.wanted.at(0, &base.elements[e as usize])).collect();
+        self.check_size(1, needed.len())?;
+        self.forest.split_base(&needed);
+        Ok(needed.len())
+    }
+
     /// The families of `levels[depth]` that are refined in part, and those that are not but have an element that
     /// balance wants refined.
-    fn incomplete(&self, depth: usize, wanted: &Wanted) -> (Vec<u32>, Vec<u32>) {
-        let level = &self.levels[depth];
-        let families = level.elements.len() / 8;
+    fn incomplete(&self, depth: usize) -> Result<(Vec<u32>, Vec<u32>), Cancelled> {
+        let level = &self.forest.levels[depth];
         let refined = |k: usize| level.family(k).iter().filter(|&&r| r).count();
-        let halfway = parallel::filter(families, |k| !matches!(refined(k), 0 | 8));
-        let needed = parallel::filter(families, |k| {
+        let is_needed = |k: usize| {
             let elements = &level.elements[8 * k..8 * k + 8];
-            refined(k) == 0 && elements.iter().any(|e| wanted.at(depth, e))
-        });
-        (halfway, needed)
+            refined(k) == 0 && elements.iter().any(|e| self.wanted.at(depth + 1, e))
+        };
+        let families = level.elements.len() / 8;
+        let halfway = parallel::try_filter(families, self.monitor, |k| !matches!(refined(k), 0 | 8))?;
+        Ok((halfway, parallel::try_filter(families, self.monitor, is_needed)?))
     }
 
     /// Refines what is not refined of families of `levels[depth]`; returns how many elements that was.
-    fn complete(
-        &mut self,
-        depth: usize,
-        families: &[u32],
-        wanted: &mut Wanted,
-        monitor: &dyn Monitor,
-    ) -> Result<usize, Cancelled> {
+    fn complete(&mut self, depth: usize, families: &[u32]) -> Result<usize, CloseError> {
         let mut count = 0;
         for batch in families.chunks(BATCH) {
-            if monitor.cancelled() {
-                return Err(Cancelled);
-            }
-            let level = &self.levels[depth];
+            self.monitor.proceed()?;
+            let level = &self.forest.levels[depth];
             let elements = batch.iter().flat_map(|&k| 8 * k..8 * k + 8);
             let marked: Vec<u32> = elements.filter(|&e| !level.is_refined[e as usize]).collect();
-            self.split(depth, &marked);
+            self.check_size(depth + 2, marked.len())?;
+            self.forest.split(depth, &marked);
             count += marked.len();
         }
-        if monitor.cancelled() {
-            return Err(Cancelled);
-        }
-        wanted.add(self, depth, families);
+        self.monitor.proceed()?;
+        self.wanted.add(self.forest, depth, families);
         Ok(count)
     }
 }
 
-/// For each node one more than the depth of the deepest doubly refined element that has it; 0 if there is none.
+/// For each node one more than the level of the deepest doubly refined element that has it; 0 if there is none.
 ///
 /// A coarser element with such a node has it in common with an ancestor, at its own level, of the doubly refined
 /// element, and that is doubly refined too. So it must be refined as well.
@@ -131,24 +180,21 @@ impl HexForest {
 struct Wanted(Vec<u8>);
 
 impl Wanted {
-    /// Takes in the parents of `families` of `levels[depth]`. Level 0 is refined everywhere, and nothing is coarser.
+    /// Takes in the parents of `families` of `levels[depth]`, which are of level `depth`.
     fn add(&mut self, forest: &HexForest, depth: usize, families: &[u32]) {
         self.0.resize(forest.positions.len(), 0);
-        if depth == 0 {
-            return;
-        }
         let parents = forest.parents(depth);
         for &k in families {
             for n in parents.elements[parents.refined[k as usize] as usize] {
                 let wanted = &mut self.0[n.index()];
-                *wanted = (*wanted).max(depth as u8);
+                *wanted = (*wanted).max(depth as u8 + 1);
             }
         }
     }
 
-    /// True if an element of `levels[depth]` must be refined.
-    fn at(&self, depth: usize, element: &[NodeId; 8]) -> bool {
-        element.iter().any(|n| usize::from(self.0[n.index()]) > depth)
+    /// True if an element of `level` must be refined.
+    fn at(&self, level: usize, element: &[NodeId; 8]) -> bool {
+        element.iter().any(|n| usize::from(self.0[n.index()]) > level)
     }
 }
 
@@ -207,14 +253,15 @@ impl<'a> Interface<'a> {
     fn at_corner(&self, k: usize, corner: usize) -> (usize, usize) {
         let Sides { edges, faces } = self.sides(k);
         let on = |flags: &[bool], at: [usize; 3]| at.iter().filter(|&&i| flags[i]).count();
-        let faces_here = FACES_AT_CORNER[corner].map(|f| faces[usize::from(f)].index());
-        let edges_here = EDGES_AT_CORNER[corner].map(|e| edges[usize::from(e)].index());
+        let faces_here = FACES_AT[corner].map(|(f, _)| faces[usize::from(f)].index());
+        let edges_here = EDGES_AT[corner].map(|e| edges[usize::from(e)].index());
         (on(&self.faces, faces_here), on(&self.edges, edges_here))
     }
 
     /// The elements that must become doubly refined so that `admits` holds everywhere, in the order of the rule's
     /// steps: from the least node on, and around each element that was added.
-    fn filling(mut self, admits: Admits) -> Option<Vec<u32>> {
+    fn filling(mut self, admits: Admits, monitor: &dyn Monitor) -> Result<Vec<u32>, Cancelled> {
+        monitor.proceed()?;
         let this = &self;
         let is_violated = |k: usize, corner: usize| {
             let (faces, edges) = this.at_corner(k, corner);
@@ -224,8 +271,9 @@ impl<'a> Interface<'a> {
             found.extend((0..8).filter(|&c| is_violated(k, c)).map(|c| this.nodes(k)[c]));
         });
         if queue.is_empty() {
-            return None;
+            return Ok(Vec::new());
         }
+        monitor.proceed()?;
         parallel::sort(&mut queue);
         queue.dedup();
         let corners = (0..8 * self.is_doubly.len()).map(|place| self.nodes(place / 8)[place % 8].index());
@@ -234,7 +282,12 @@ impl<'a> Interface<'a> {
         queue.iter().for_each(|n| is_queued[n.index()] = true);
         let mut queue = VecDeque::from(queue);
         let mut filling = Vec::new();
+        let mut steps = 0usize;
         while let Some(node) = queue.pop_front() {
+            steps += 1;
+            if steps.is_multiple_of(BATCH) {
+                monitor.proceed()?;
+            }
             is_queued[node.index()] = false;
             while let Some(k) = self.filler(stars.at(node.index()), admits) {
                 self.is_doubly[k] = true;
@@ -247,7 +300,7 @@ impl<'a> Interface<'a> {
                 }
             }
         }
-        Some(filling)
+        Ok(filling)
     }
 
     /// Of the corners at a node, if one is not admitted: the element with the most interface faces there, then the
@@ -264,25 +317,6 @@ impl<'a> Interface<'a> {
         }
         best.filter(|_| is_violated).map(|(_, k)| k)
     }
-}
-
-/// The three faces at each corner, and the three edges.
-const FACES_AT_CORNER: [[u8; 3]; 8] = at_corners(FACES);
-const EDGES_AT_CORNER: [[u8; 3]; 8] = at_corners(EDGES);
-
-const fn at_corners<const N: usize, const M: usize>(parts: [[u8; M]; N]) -> [[u8; 3]; 8] {
-    let (mut all, mut count, mut p) = ([[0; 3]; 8], [0; 8], 0);
-    while p < N {
-        let mut k = 0;
-        while k < M {
-            let corner = parts[p][k] as usize;
-            all[corner][count[corner]] = p as u8;
-            count[corner] += 1;
-            k += 1;
-        }
-        p += 1;
-    }
-    all
 }
 
 #[cfg(test)]

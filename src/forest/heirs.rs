@@ -1,8 +1,8 @@
 //! What the elements of a level leave to the next: edges and faces of their children, from their own.
 
-use super::octree::{HexLevel, LevelEdges, LevelFaces, Sides, apart};
+use super::octree::{HexLevel, LevelEdges, LevelFaces, Sides};
 use super::quadtree::append;
-use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES, FACE_ACROSS, FACES, FACES_AT_EDGE};
+use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES, FACE_ACROSS, FACES, FACES_AT_EDGE, apart};
 use crate::mesh::{EdgeId, FaceId, NodeId};
 use crate::parallel;
 

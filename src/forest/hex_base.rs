@@ -1,21 +1,47 @@
-//! The base of a forest of octrees, from a hex mesh: every hex of level 0 is refined once, as in the paper (section
-//! 3), which tells edge, face and volume nodes apart everywhere.
+//! The base of a forest of octrees, from a hex mesh. The paper refines every hex of level 0 once (section 3), which tells
+//! edge, face and volume nodes apart everywhere.
 
 use super::HexForest;
-use super::octree::{HexLevel, LevelEdges, LevelFaces, Sides, edges_of_face, refine};
+use super::octree::{HexLevel, LevelEdges, LevelFaces, Sides, edges_of_face};
 use crate::mesh::topology::{HexEdges, HexFaces, hex_of};
 use crate::mesh::{EdgeId, FaceId, HexMesh};
-use crate::parallel;
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 impl HexForest {
-    /// The forest of level 1: every hex of `input` refined once. The input's nodes keep their numbers.
+    /// The forest of level 1: every hex of `input` refined once, so that elements `8r..8r + 8` are the children of
+    /// hex `r`.
+    ///
+    /// # Panics
+    /// As [`HexForest::new`].
+    pub fn refined_once(input: &HexMesh) -> Self {
+        let mut forest = Self::new(input);
+        forest.split_base(&(0..input.hexes.len() as u32).collect::<Vec<_>>());
+        forest
+    }
+
+    /// The forest of level 0: the hexes of `input`, whose nodes keep their numbers.
     ///
     /// # Panics
     /// If a hex has a node twice or one that is out of range, or if hexes disagree about a face: `check_hexes`
     /// tells before.
-    pub fn refined_once(input: &HexMesh) -> Self {
+    pub fn new(input: &HexMesh) -> Self {
+        Self::within(input, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`HexForest::new`], told by a monitor when to stop.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    ///
+    /// # Panics
+    /// As [`HexForest::new`].
+    pub fn within(input: &HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let (count, hexes) = (input.positions.len(), input.hexes.as_slice());
-        let (faces, edges) = parallel::join(|| HexFaces::of(count, hexes), || HexEdges::of(count, hexes));
+        let (faces, edges) = parallel::join(
+            || HexFaces::within(count, hexes, monitor),
+            || HexEdges::within(count, hexes, monitor),
+        );
+        let (faces, edges) = (faces?, edges?);
         let edges_of = |f: FaceId| -> [EdgeId; 4] {
             let side = faces.sides(f)[0];
             edges_of_face(side as usize % 6, &edges.of_hex[hex_of(side).index()])
@@ -24,11 +50,7 @@ impl HexForest {
         let sides = faces.of_hex.iter().zip(&edges.of_hex);
         let sides = sides.map(|(&faces, &edges)| Sides { edges, faces }).collect();
         let level_faces = LevelFaces::base(faces.nodes, face_edges);
-        let mut base = HexLevel::base(input.hexes.clone(), sides, LevelEdges::base(edges.ends), level_faces);
-        let mut positions = input.positions.clone();
-        let mut first = HexLevel::default();
-        let all: Vec<u32> = (0..input.hexes.len() as u32).collect();
-        refine(&mut positions, &mut base, &mut first, &all);
-        Self { positions, levels: vec![first], base }
+        let base = HexLevel::base(input.hexes.clone(), sides, LevelEdges::base(edges.ends), level_faces);
+        Ok(Self { positions: input.positions.clone(), levels: vec![HexLevel::default()], base })
     }
 }

@@ -25,7 +25,7 @@ mod quadtree;
 mod testing;
 
 pub use base::BaseError;
-pub use closure::{Admits, Closure, admits_method_one};
+pub use closure::{Admits, CloseError, Closure, admits_method_one};
 pub use octree::{HexForest, HexLevel, NodeKind};
 pub use quadtree::{Level, QuadForest};
 pub(crate) use quadtree::{UNDIVIDED, center, midpoint};

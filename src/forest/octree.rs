@@ -23,7 +23,7 @@ use super::UNDIVIDED;
 use super::heirs::inherit;
 use super::quadtree::{append, center, midpoint};
 use crate::geometry::Point;
-use crate::mesh::numbering::hex::{CORNERS, EDGE_BETWEEN, EDGES_OF_FACE, FACE_ACROSS};
+use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES_OF_FACE, FACE_ACROSS, apart};
 use crate::mesh::{EdgeId, FaceId, HexId, NodeId};
 use crate::parallel;
 
@@ -48,16 +48,6 @@ impl NodeKind {
     }
 }
 
-/// Along how many axes two corners differ.
-pub(super) const fn apart(a: usize, b: usize) -> usize {
-    let (mut count, mut axis) = (0, 0);
-    while axis < 3 {
-        count += (CORNERS[a][axis] != CORNERS[b][axis]) as usize;
-        axis += 1;
-    }
-    count
-}
-
 /// The elements of one level.
 #[derive(Debug, Default)]
 pub struct HexLevel {
@@ -68,7 +58,7 @@ pub struct HexLevel {
     pub refined: Vec<u32>,
     /// For each element: is it refined?
     pub is_refined: Vec<bool>,
-    /// The coarse hex of each family of eight; of each element at level 0.
+    /// The coarse hex of each family of eight; at level 0 of each element.
     roots: Vec<HexId>,
     /// Edges and faces of each element, as far as they were needed.
     pub(super) sides: Vec<Sides>,
@@ -118,10 +108,10 @@ pub(super) struct LevelFaces {
 pub struct HexForest {
     /// Coordinates of all nodes.
     pub positions: Vec<Point>,
-    /// The levels, from level 1: elements `8r..8r + 8` of the first are the children of the input's hex `r`.
+    /// The levels, from level 1. There is always one; it has no elements as long as none of level 0 is refined.
     pub levels: Vec<HexLevel>,
-    /// Level 0, all of whose elements are refined.
-    pub(super) base: HexLevel,
+    /// Level 0: the input's hexes.
+    pub base: HexLevel,
 }
 
 impl HexLevel {
@@ -209,12 +199,18 @@ impl LevelFaces {
 impl HexForest {
     /// Number of elements that are not refined.
     pub fn leaf_count(&self) -> usize {
-        self.levels.iter().map(|l| l.elements.len() - l.refined.len()).sum()
+        let all = std::iter::once(&self.base).chain(&self.levels);
+        all.map(|l| l.elements.len() - l.refined.len()).sum()
     }
 
     /// The level above `levels[depth]`: its element `refined[k]` is the parent of family `k`.
     pub(super) fn parents(&self, depth: usize) -> &HexLevel {
         depth.checked_sub(1).map_or(&self.base, |above| &self.levels[above])
+    }
+
+    /// Splits the hexes `marked` of the input, none of which is refined yet, into eight each.
+    pub fn split_base(&mut self, marked: &[u32]) {
+        refine(&mut self.positions, &mut self.base, &mut self.levels[0], marked);
     }
 
     /// Splits the elements `marked` of `levels[depth]`, none of which is refined yet, into eight each.
@@ -238,12 +234,7 @@ impl HexForest {
 }
 
 /// Splits the elements `marked` of `parent`, whose edges and faces are made.
-pub(super) fn refine(
-    positions: &mut Vec<Point>,
-    parent: &mut HexLevel,
-    child: &mut HexLevel,
-    marked: &[u32],
-) {
+fn refine(positions: &mut Vec<Point>, parent: &mut HexLevel, child: &mut HexLevel, marked: &[u32]) {
     let volume_nodes = add_nodes(positions, parent, marked);
     let families: Vec<[[NodeId; 8]; 8]> = parallel::collect(marked.len(), |k| {
         let e = marked[k];

@@ -15,7 +15,7 @@ mod tags;
 pub mod topology;
 mod volume;
 
-pub use check::{Defect, check_hexes, check_polygons, check_quads};
+pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
 pub use faces::Faces;
 pub use grid::{GridError, GridOptions, hex_grid};
 pub use hash::{MeshHash, mesh_hash, polygon_hash};

@@ -121,6 +121,49 @@ pub mod hex {
         all
     };
 
+    /// The three faces at each corner: the face's number, then the corners that follow around it.
+    pub const FACES_AT: [[(u8, [u8; 3]); 3]; 8] = {
+        let (mut all, mut count, mut f) = ([[(NONE, [NONE; 3]); 3]; 8], [0; 8], 0);
+        while f < 6 {
+            let mut k = 0;
+            while k < 4 {
+                let corner = FACES[f][k] as usize;
+                let following = [FACES[f][(k + 1) % 4], FACES[f][(k + 2) % 4], FACES[f][(k + 3) % 4]];
+                all[corner][count[corner]] = (f as u8, following);
+                count[corner] += 1;
+                k += 1;
+            }
+            f += 1;
+        }
+        all
+    };
+
+    /// The three edges at each corner.
+    pub const EDGES_AT: [[u8; 3]; 8] = {
+        let (mut all, mut count, mut e) = ([[NONE; 3]; 8], [0; 8], 0);
+        while e < 12 {
+            let mut k = 0;
+            while k < 2 {
+                let corner = EDGES[e][k] as usize;
+                all[corner][count[corner]] = e as u8;
+                count[corner] += 1;
+                k += 1;
+            }
+            e += 1;
+        }
+        all
+    };
+
+    /// Along how many axes two corners differ: 0 if they are one, 1 at an edge, 2 across a face, 3 across the hex.
+    pub const fn apart(a: usize, b: usize) -> usize {
+        let (mut count, mut axis) = (0, 0);
+        while axis < 3 {
+            count += (CORNERS[a][axis] != CORNERS[b][axis]) as usize;
+            axis += 1;
+        }
+        count
+    }
+
     /// No edge or face.
     pub const NONE: u8 = u8::MAX;
 
@@ -260,13 +303,25 @@ mod tests {
     fn tables_between_corners_edges_and_faces_agree() {
         for a in 0..8 {
             for b in 0..8 {
-                let apart = differing(hex::CORNERS[a], hex::CORNERS[b]);
+                let apart = hex::apart(a, b);
+                assert_eq!(apart, differing(hex::CORNERS[a], hex::CORNERS[b]));
                 let (edge, face) = (hex::EDGE_BETWEEN[a][b], hex::FACE_ACROSS[a][b]);
                 assert_eq!((edge != hex::NONE, face != hex::NONE), (apart == 1, apart == 2));
                 let has = |nodes: &[u8]| nodes.contains(&(a as u8)) && nodes.contains(&(b as u8));
                 assert!(edge == hex::NONE || has(&hex::EDGES[usize::from(edge)]));
                 assert!(face == hex::NONE || has(&hex::FACES[usize::from(face)]));
             }
+        }
+        for k in 0..8u8 {
+            let faces = hex::FACES_AT[usize::from(k)].map(|(f, following)| {
+                let face = hex::FACES[usize::from(f)];
+                let at = face.iter().position(|&c| c == k).expect("a face at the corner");
+                assert_eq!(following, [1, 2, 3].map(|turn| face[(at + turn) % 4]));
+                f
+            });
+            let edges = hex::EDGES_AT[usize::from(k)];
+            assert!(faces[0] < faces[1] && faces[1] < faces[2] && edges[0] < edges[1] && edges[1] < edges[2]);
+            assert!(edges.iter().all(|&e| hex::EDGES[usize::from(e)].contains(&k)));
         }
         for (e, faces) in hex::FACES_AT_EDGE.iter().enumerate() {
             assert!(faces[0] < faces[1] && faces[1] != hex::NONE);

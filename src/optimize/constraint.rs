@@ -30,6 +30,8 @@ pub enum Freedom {
 #[derive(Clone, Debug)]
 pub struct Constraints<'a> {
     surface: Option<&'a BoundarySurface>,
+    /// Are nodes kept where planar patches and straight curves end?
+    is_bounded: bool,
     /// One for each node.
     pub freedom: Vec<Freedom>,
 }
@@ -37,7 +39,7 @@ pub struct Constraints<'a> {
 impl<'a> Constraints<'a> {
     /// All of `nodes` nodes may go anywhere.
     pub fn none(nodes: usize) -> Self {
-        Self { surface: None, freedom: vec![Freedom::Inside; nodes] }
+        Self { surface: None, is_bounded: false, freedom: vec![Freedom::Inside; nodes] }
     }
 
     /// The freedom of the nodes of a hex mesh whose boundary lies on `surface`, usually that of the mesh it was
@@ -79,7 +81,13 @@ impl<'a> Constraints<'a> {
                 _ => Freedom::Fixed,
             };
         }
-        Self { surface: Some(surface), freedom }
+        Self { surface: Some(surface), is_bounded: false, freedom }
+    }
+
+    /// The same, and nodes on planar patches and straight curves stay within these. That takes a search for each move,
+    /// and is hardly ever needed: where a node would pass the end of its patch, cells nearly always turn over.
+    pub fn bounded(self) -> Self {
+        Self { is_bounded: true, ..self }
     }
 
     /// Is the node a corner?
@@ -111,6 +119,8 @@ impl<'a> Constraints<'a> {
     /// Where the node may be that is near to `p`; it was at `anchor` at first.
     pub(super) fn project(&self, node: NodeId, anchor: Point, p: Point) -> Point {
         match (self.freedom[node.index()], self.surface) {
+            (Freedom::Patch(patch), Some(surface)) if self.is_bounded => surface.closest_on_patch(patch, p),
+            (Freedom::Curve(curve), Some(surface)) if self.is_bounded => surface.closest_on_curve(curve, p),
             (Freedom::Patch(patch), Some(surface)) => surface.onto_patch(patch, anchor, p),
             (Freedom::Curve(curve), Some(surface)) => surface.onto_curve(curve, anchor, p),
             (Freedom::Fixed, _) => anchor,

@@ -122,14 +122,24 @@ impl BoundarySurface {
         self.curve_between.get(&pair(patches.into_iter())).copied()
     }
 
+    /// The point of a curve nearest to `p`.
+    pub(super) fn closest_on_curve(&self, curve: u32, p: Point) -> Point {
+        self.curves[curve as usize].closest(p)
+    }
+
+    /// The point of a patch nearest to `p`.
+    pub(super) fn closest_on_patch(&self, patch: u32, p: Point) -> Point {
+        self.patches[patch as usize].closest(p)
+    }
+
     /// How far `p` is from a curve.
     pub(super) fn distance_to_curve(&self, curve: u32, p: Point) -> f64 {
-        self.curves[curve as usize].closest(p).distance(p)
+        self.closest_on_curve(curve, p).distance(p)
     }
 
     /// How far `p` is from a patch.
     pub(super) fn distance_to_patch(&self, patch: u32, p: Point) -> f64 {
-        self.patches[patch as usize].closest(p).distance(p)
+        self.closest_on_patch(patch, p).distance(p)
     }
 
     /// The unit normal of a patch where `p` is nearest to it.

@@ -23,6 +23,7 @@ mod estimate;
 pub mod hex;
 mod options;
 mod quad;
+mod targets;
 
 pub use estimate::{Estimate, estimate_quads};
 pub use options::{QuadOptions, RefineError, RefinedQuads};

@@ -19,12 +19,11 @@ use super::conform::conform;
 use super::demand::{Demand, corner_quads, face_points, outline};
 use super::estimate::refuse_absurd;
 use super::options::{QuadOptions, RefineError, RefinedQuads};
+use super::targets::{exceeds, first_bad_target};
 use crate::forest::QuadForest;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, NodeId, PolygonMesh};
-use crate::parallel;
-use crate::sizing::limit;
-use crate::{Cancelled, Monitor, Stage};
+use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// Elements are split in batches of this many, so that the monitor is asked several times a second.
 const BATCH: usize = 1 << 20;
@@ -246,13 +245,8 @@ fn validate_targets(targets: &[f64], candidates: usize) -> Result<(), RefineErro
     if targets.len() != candidates {
         return Err(RefineError::TargetCount { given: targets.len(), wanted: candidates });
     }
-    match targets.iter().position(|&target| target.is_nan() || target <= 0.0) {
+    match first_bad_target(targets) {
         Some(candidate) => Err(RefineError::Target { candidate, value: targets[candidate] }),
         None => Ok(()),
     }
-}
-
-/// True if element `e` is longer than the caller's target for it, by more than rounding.
-fn exceeds(targets: Option<&[f64]>, e: usize, longest: f64) -> bool {
-    targets.is_some_and(|targets| longest > limit(targets[e]))
 }

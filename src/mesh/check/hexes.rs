@@ -17,24 +17,42 @@ use crate::mesh::topology::{
     Bins, HexEdges, HexFaces, Links, NodeSets, boundary_faces_at, faces_at_use, hex_of, side_nodes,
 };
 use crate::mesh::{EdgeId, FaceId, HexId, HexMesh, NodeId};
-use crate::parallel;
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// Everything wrong with a hex mesh; empty for a conforming manifold with boundary, without loose nodes, whose
 /// hexes are the right way out at all corners.
 pub fn check_hexes(mesh: &HexMesh) -> Vec<Defect> {
-    let mut defects = per_hex(mesh, |h| ids(mesh, h));
+    check_hexes_within(mesh, &Silent).expect("nobody stops it")
+}
+
+/// As [`check_hexes`], told by a monitor when to stop.
+///
+/// # Errors
+/// If the monitor stops it.
+pub fn check_hexes_within(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
+    monitor.proceed()?;
+    let mut defects = per_hex(mesh, |h| ids(mesh, h), monitor)?;
     if !defects.is_empty() {
-        return defects;
+        return Ok(defects);
     }
     defects.extend(not_finite(&mesh.positions));
     let all_finite = defects.is_empty();
-    defects.extend(per_hex(mesh, |h| shape(mesh, h)));
-    defects.extend(same_hexes(mesh));
+    defects.extend(per_hex(mesh, |h| shape(mesh, h), monitor)?);
+    defects.extend(same_hexes(mesh, monitor)?);
+    monitor.proceed()?;
     let (node_count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
-    let (faces, edges) =
-        parallel::join(|| HexFaces::of(node_count, hexes), || HexEdges::of(node_count, hexes));
-    defects.extend(parallel::filter_map(faces.nodes.len(), |f| face_defect(mesh, &faces, FaceId::new(f))));
-    defects.extend(edge_defects(&faces, &edges));
+    let (faces, edges) = parallel::join(
+        || HexFaces::within(node_count, hexes, monitor),
+        || HexEdges::within(node_count, hexes, monitor),
+    );
+    let (faces, edges) = (faces?, edges?);
+    monitor.proceed()?;
+    defects.extend(parallel::try_gather(faces.nodes.len(), monitor, |f, found| {
+        found.extend(face_defect(mesh, &faces, FaceId::new(f)));
+    })?);
+    defects.extend(edge_defects(&faces, &edges, monitor)?);
+    monitor.proceed()?;
     let links = Links::of(mesh, &faces, &edges);
     let unused = (0..node_count).filter(|&n| !links.is_used(n));
     defects.extend(unused.map(|n| Defect::UnusedNode { node: NodeId::new(n) }));
@@ -43,6 +61,7 @@ pub fn check_hexes(mesh: &HexMesh) -> Vec<Defect> {
         Defect::OddLink { node, euler, boundary }
     };
     defects.extend(links.odd().map(odd));
+    monitor.proceed()?;
     if all_finite {
         let open = faces.ids().filter(|&f| faces.is_boundary(f));
         let open: Vec<(HexId, [NodeId; 4])> =
@@ -50,10 +69,12 @@ pub fn check_hexes(mesh: &HexMesh) -> Vec<Defect> {
         let mut sides: Vec<[NodeId; 2]> = open.iter().flat_map(|(_, f)| edges_around(f)).collect();
         sides.sort_unstable();
         sides.dedup();
+        monitor.proceed()?;
         defects.extend(hanging::inside(&mesh.positions, &links.on_boundary, sides));
+        monitor.proceed()?;
         defects.extend(hanging::inside_faces(&mesh.positions, &links.on_boundary, open));
     }
-    defects
+    Ok(defects)
 }
 
 /// The edges around a face, the lesser end first.
@@ -65,8 +86,12 @@ fn edges_around(face: &[NodeId; 4]) -> [[NodeId; 2]; 4] {
 }
 
 /// What `look` finds at each hex, in order of hexes.
-fn per_hex(mesh: &HexMesh, look: impl Fn(usize) -> Option<Defect> + Sync) -> Vec<Defect> {
-    parallel::filter_map(mesh.hexes.len(), look)
+fn per_hex(
+    mesh: &HexMesh,
+    look: impl Fn(usize) -> Option<Defect> + Sync,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Defect>, Cancelled> {
+    parallel::try_gather(mesh.hexes.len(), monitor, |h, found| found.extend(look(h)))
 }
 
 /// Step 1 at one hex.
@@ -87,18 +112,20 @@ fn shape(mesh: &HexMesh, h: usize) -> Option<Defect> {
 }
 
 /// Step 4.
-fn same_hexes(mesh: &HexMesh) -> Vec<Defect> {
+fn same_hexes(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
     let mut sets = NodeSets::new(mesh.positions.len(), mesh.hexes.as_flattened(), mesh.hexes.len());
     let mut first_of_set = Vec::with_capacity(mesh.hexes.len());
     let mut defects = Vec::new();
-    for (h, &hex) in mesh.hexes.iter().enumerate() {
-        let hex_id = HexId::new(h);
-        match first_of_set.get(sets.number(hex) as usize) {
-            None => first_of_set.push(hex_id),
-            Some(&first) => defects.push(Defect::SameHexes { hexes: [first, hex_id] }),
+    for batch in batches(mesh.hexes.len(), monitor) {
+        for h in batch? {
+            let hex_id = HexId::new(h);
+            match first_of_set.get(sets.number(mesh.hexes[h]) as usize) {
+                None => first_of_set.push(hex_id),
+                Some(&first) => defects.push(Defect::SameHexes { hexes: [first, hex_id] }),
+            }
         }
     }
-    defects
+    Ok(defects)
 }
 
 /// Step 5 at one face.
@@ -131,11 +158,11 @@ fn is_turned(a: [NodeId; 4], b: [NodeId; 4]) -> bool {
 }
 
 /// Step 6.
-fn edge_defects(faces: &HexFaces, edges: &HexEdges) -> Vec<Defect> {
+fn edge_defects(faces: &HexFaces, edges: &HexEdges, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
     let uses = edges.uses();
-    let mut shared: Vec<[FaceId; 2]> = parallel::gather(edges.ends.len(), |e, found| {
+    let mut shared: Vec<[FaceId; 2]> = parallel::try_gather(edges.ends.len(), monitor, |e, found| {
         found.extend(sharing_three_nodes(faces, edges, &uses, EdgeId::new(e)));
-    });
+    })?;
     // Faces with three common nodes may have two common edges.
     parallel::sort(&mut shared);
     shared.dedup();
@@ -143,12 +170,13 @@ fn edge_defects(faces: &HexFaces, edges: &HexEdges) -> Vec<Defect> {
         let hexes = pair.map(|f| hex_of(faces.sides(f)[0]));
         Defect::ThreeSharedNodes { faces: pair.map(|f| faces.nodes[f.index()]), hexes }
     });
-    let rims = parallel::filter_map(edges.ends.len(), |e| {
+    let rims = parallel::try_gather(edges.ends.len(), monitor, |e, found| {
         let at = boundary_faces_at(faces, &uses, EdgeId::new(e));
         let hexes = || at.iter().map(|&f| hex_of(faces.sides(f)[0])).collect();
-        (!matches!(at.len(), 0 | 2)).then(|| Defect::NonManifoldRim { edge: edges.ends[e], hexes: hexes() })
-    });
-    told.chain(rims).collect()
+        let rim = || Defect::NonManifoldRim { edge: edges.ends[e], hexes: hexes() };
+        found.extend((!matches!(at.len(), 0 | 2)).then(rim));
+    })?;
+    Ok(told.chain(rims).collect())
 }
 
 /// The pairs of faces at an edge that have another node in common: two triples of nodes in a quad share an edge of

@@ -33,6 +33,11 @@ impl Bins {
 
     /// The places that name bin `b`.
     pub fn at(&self, b: usize) -> &[u32] {
-        &self.places[self.offsets[b] as usize..self.offsets[b + 1] as usize]
+        &self.places[self.range(b)]
+    }
+
+    /// Where the places of bin `b` stand among those of all bins.
+    pub fn range(&self, b: usize) -> std::ops::Range<usize> {
+        self.offsets[b] as usize..self.offsets[b + 1] as usize
     }
 }

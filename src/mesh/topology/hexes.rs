@@ -3,6 +3,8 @@
 use super::{Bins, NodeSets};
 use crate::mesh::numbering::hex::{EDGES, FACES};
 use crate::mesh::{EdgeId, FaceId, HexId, NodeId};
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor, Silent};
 
 /// A side: face `k` of hex `h`, in the order of [`FACES`], as `6 * h + k`.
 pub type Side = u32;
@@ -34,12 +36,25 @@ impl HexFaces {
     /// # Panics
     /// If a node id is out of range: `check_hexes` tells before.
     pub fn of(node_count: usize, hexes: &[[NodeId; 8]]) -> Self {
+        Self::within(node_count, hexes, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`HexFaces::of`], unless the monitor stops it.
+    pub(crate) fn within(
+        node_count: usize,
+        hexes: &[[NodeId; 8]],
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let mut sets = NodeSets::new(node_count, hexes.as_flattened(), 3 * hexes.len());
-        let number = |hex: &[NodeId; 8]| FACES.map(|face| FaceId(sets.number(corners(hex, face))));
-        let of_hex: Vec<[FaceId; 6]> = hexes.iter().map(number).collect();
+        let mut of_hex: Vec<[FaceId; 6]> = Vec::with_capacity(hexes.len());
+        for batch in batches(hexes.len(), monitor) {
+            let number = |hex: &[NodeId; 8]| FACES.map(|face| FaceId(sets.number(corners(hex, face))));
+            of_hex.extend(hexes[batch?].iter().map(number));
+        }
         let nodes = sets.into_nodes();
+        monitor.proceed()?;
         let sides = Bins::of(nodes.len(), of_hex.as_flattened().iter().map(|f| f.index()));
-        Self { nodes, of_hex, sides }
+        Ok(Self { nodes, of_hex, sides })
     }
 
     /// The sides of face `f`, ascending: one on the boundary, two inside.
@@ -74,10 +89,22 @@ impl HexEdges {
     /// # Panics
     /// If a node id is out of range: `check_hexes` tells before.
     pub fn of(node_count: usize, hexes: &[[NodeId; 8]]) -> Self {
+        Self::within(node_count, hexes, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`HexEdges::of`], unless the monitor stops it.
+    pub(crate) fn within(
+        node_count: usize,
+        hexes: &[[NodeId; 8]],
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let mut sets = NodeSets::new(node_count, hexes.as_flattened(), 3 * hexes.len());
-        let number = |hex: &[NodeId; 8]| EDGES.map(|edge| EdgeId(sets.number(corners(hex, edge))));
-        let of_hex = hexes.iter().map(number).collect();
-        Self { ends: sets.into_nodes(), of_hex }
+        let mut of_hex: Vec<[EdgeId; 12]> = Vec::with_capacity(hexes.len());
+        for batch in batches(hexes.len(), monitor) {
+            let number = |hex: &[NodeId; 8]| EDGES.map(|edge| EdgeId(sets.number(corners(hex, edge))));
+            of_hex.extend(hexes[batch?].iter().map(number));
+        }
+        Ok(Self { ends: sets.into_nodes(), of_hex })
     }
 
     /// The hexes at each edge, as `12 * h + k` for edge `k` of hex `h`.

@@ -2,7 +2,7 @@
 
 /// Union-find with a parity to the root. Roots are the least members, so what is read from the sets
 /// depends on the relations alone, never on the order in which they came.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Sets {
     parent: Vec<u32>,
     /// Whether each member stands on the other side than its parent.
@@ -12,8 +12,17 @@ pub(crate) struct Sets {
 impl Sets {
     /// `n` sets of one member each.
     pub(crate) fn new(n: usize) -> Self {
-        let n = u32::try_from(n).expect("more than 2^32 members");
-        Self { parent: (0..n).collect(), odd: vec![false; n as usize] }
+        let mut sets = Self::default();
+        sets.reset(n);
+        sets
+    }
+
+    /// Starts again with `n` sets of one member each.
+    pub(crate) fn reset(&mut self, n: usize) {
+        self.parent.clear();
+        self.parent.extend(0..u32::try_from(n).expect("more than 2^32 members"));
+        self.odd.clear();
+        self.odd.resize(n, false);
     }
 
     /// The least member of `i`'s set, and whether `i` stands on the other side than it.

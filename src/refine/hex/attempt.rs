@@ -1,20 +1,24 @@
 //! A stage with its transition untangled and smoothed; or what must be refined too.
 
+use super::local::Local;
 use super::options::{HexRefineError, Method};
-use super::stage::{Stage, StageError, StageMesh, stage};
+use super::stage::{StageError, StageMesh, StageResult, stage};
 use crate::Monitor;
 use crate::mesh::HexId;
-use crate::optimize::{BoundarySurface, Constraints, OptimizeOptions, optimize};
+use crate::optimize::BoundarySurface;
 
 /// How a stage ended.
 pub(super) enum Attempt {
     /// Every hex is positive.
-    Made(Box<Stage>),
+    Made(Box<StageResult>),
     /// The interface cannot be separated unless these hexes are refined too.
     Conflict(Vec<u32>),
     /// So many `hexes` stay inside out; the `coarse` ones beside them are to be refined too.
     Tangled { coarse: Vec<u32>, hexes: usize },
 }
+
+/// Nodes that are further off the boundary than this share of the shortest edge have left it.
+const STRAYED: f64 = 1e-6;
 
 /// Makes a stage, untangles its transition and smooths it.
 pub(super) fn attempt(
@@ -31,20 +35,24 @@ pub(super) fn attempt(
     if next.layer_nodes.is_empty() {
         return Ok(Attempt::Made(Box::new(next)));
     }
-    let StageMesh { positions, hexes, .. } = &mut next.mesh;
-    let mut movable = vec![false; positions.len()];
-    next.layer_nodes.iter().for_each(|n| movable[n.index()] = true);
-    let constraints = Constraints::of_hexes(positions, hexes, surface);
-    let options = OptimizeOptions::default();
-    let tangled = optimize(positions, hexes, &movable, &constraints, &options, monitor)?.inverted;
-    if tangled.is_empty() {
+    let mut local = Local::around(&next, monitor)?;
+    let constraints = local.constraints(surface, monitor)?;
+    let mut report = local.optimize(&constraints, monitor)?;
+    if report.off_boundary > STRAYED * local.shortest_edge() {
+        // A node has passed the end of its patch: it lies in the plane of that, but no more on the boundary.
+        local.put_back(&next.mesh.positions);
+        report = local.optimize(&constraints.bounded(), monitor)?;
+    }
+    local.write_back(&mut next.mesh.positions);
+    if report.inverted.is_empty() {
         return Ok(Attempt::Made(Box::new(next)));
     }
+    let tangled: Vec<HexId> = report.inverted.iter().map(|h| local.hex_ids[h.index()]).collect();
     Ok(Attempt::Tangled { coarse: coarse_at(&next, &tangled), hexes: tangled.len() })
 }
 
-/// What it means that a stage was not made, other than for a conflict: a closed octree leaves no such place.
-pub(super) fn without_template(error: StageError) -> HexRefineError {
+/// What it means that a stage was not made, other than for a conflict: closed trees leave no such place.
+fn without_template(error: StageError) -> HexRefineError {
     match error {
         StageError::Cancelled(cancelled) => HexRefineError::Cancelled(cancelled),
         StageError::Conflict(hexes) | StageError::Forbidden(hexes) | StageError::NotCouplable(hexes) => {
@@ -54,7 +62,7 @@ pub(super) fn without_template(error: StageError) -> HexRefineError {
 }
 
 /// The coarse hexes whose transition hexes touch those that are `tangled`.
-fn coarse_at(stage: &Stage, tangled: &[HexId]) -> Vec<u32> {
+fn coarse_at(stage: &StageResult, tangled: &[HexId]) -> Vec<u32> {
     let hexes = &stage.mesh.hexes;
     let mut is_near = vec![false; stage.mesh.positions.len()];
     tangled.iter().flat_map(|h| hexes[h.index()]).for_each(|n| is_near[n.index()] = true);

@@ -1,5 +1,7 @@
 //! Loops over blocks of cells.
 
+use crate::{Cancelled, Monitor, parallel};
+
 /// Cells, or nodes, that one thread takes at a time.
 pub(super) const BLOCK: usize = 1 << 12;
 
@@ -24,4 +26,20 @@ pub(super) fn offsets(counts: impl ExactSizeIterator<Item = u32>) -> Vec<u32> {
         offsets.push(sum);
     }
     offsets
+}
+
+/// What `look` finds at each of `count` places, in their order; its buffers serve one place after another. The monitor
+/// is asked before each block.
+pub(super) fn in_blocks<B, T: Send>(
+    count: usize,
+    monitor: &dyn Monitor,
+    buffers: impl Fn() -> B + Sync,
+    look: impl Fn(&mut B, usize, &mut Vec<T>) + Sync,
+) -> Result<Vec<T>, Cancelled> {
+    let blocks = parallel::try_blocks(count, BLOCK, monitor, |places| {
+        let (mut buffers, mut found) = (buffers(), Vec::new());
+        places.for_each(|place| look(&mut buffers, place, &mut found));
+        found
+    })?;
+    Ok(parallel::concat(blocks))
 }

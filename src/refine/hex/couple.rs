@@ -8,7 +8,7 @@
 use super::pillow::{LayerHex, above};
 use super::stage::NO_OCTANT;
 use crate::geometry::{Point, area_vector};
-use crate::mesh::numbering::hex::CORNERS;
+use crate::mesh::numbering::hex::apart;
 use crate::mesh::{Edges, NodeId, QuadMesh};
 
 /// How flat a group must be: the cosine of 30 degrees between the normals of faces side by side, that is a
@@ -34,17 +34,11 @@ fn family_middle(octant: u8, refined_face: u8) -> Option<u8> {
     if octant == NO_OCTANT {
         return None;
     }
-    let role = |corner: u8| role_of(octant, corner);
+    // How many axes of its parent the child's corner divides: 0 at the parent's corner, 3 at the volume node.
+    let role = |corner: u8| apart(octant.into(), corner.into());
     let corners = above(refined_face);
     let outside = corners.iter().all(|&corner| role(corner) < 3);
     (0..4).find(|&k| outside && role(corners[usize::from(k)]) == 2)
-}
-
-/// How many axes of its parent a child's corner divides: 0 at the parent's corner, 1 at an edge node, 2 at a face
-/// node, 3 at the volume node.
-pub(super) fn role_of(octant: u8, corner: u8) -> usize {
-    let (a, b) = (CORNERS[usize::from(octant)], CORNERS[usize::from(corner)]);
-    (0..3).filter(|&axis| a[axis] != b[axis]).count()
 }
 
 /// The layer seen as a sheet of quads: a node is a pair of a coarse and a refined copy.

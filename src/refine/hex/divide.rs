@@ -40,27 +40,21 @@ impl Divided {
     }
 }
 
-/// What hexes became.
-pub(super) struct Division {
-    /// The cells, hex after hex, each hex's in the order of its template.
-    pub(super) cells: Vec<[NodeId; 8]>,
-    /// Hex `k` became the cells from `cells_of[k]` to `cells_of[k + 1]`.
-    pub(super) cells_of: Vec<u32>,
-}
-
 /// No hex divides the edge or face.
 const NONE: u32 = u32::MAX;
 
-/// Applies their templates to `hexes`, and appends the new nodes to `positions`. Hexes that share an edge or a
-/// face must divide it alike.
+/// Applies their templates to `hexes`. Appends the new nodes to `positions`, and the new cells to `cells`, hex after hex,
+/// each hex's in the order of its template: hex `k` becomes the new cells from `offsets[k]` to `offsets[k + 1]`, which is
+/// returned. Hexes that share an edge or a face must divide it alike.
 ///
 /// # Errors
 /// If the monitor stops it.
 pub(super) fn divide(
     positions: &mut Vec<Point>,
+    cells: &mut Vec<[NodeId; 8]>,
     hexes: &[Divided],
     monitor: &dyn Monitor,
-) -> Result<Division, Cancelled> {
+) -> Result<Vec<u32>, Cancelled> {
     monitor.checkpoint(TEMPLATES, 0.0)?;
     let sides = Sides::of(positions.len(), hexes, monitor)?;
     monitor.checkpoint(TEMPLATES, 0.5)?;
@@ -73,9 +67,9 @@ pub(super) fn divide(
     place(positions, hexes, &sides, &nodes_of, monitor)?;
     monitor.checkpoint(TEMPLATES, 0.75)?;
     let cells_of = offsets(hexes.iter().map(|hex| hex.template.cell_count() as u32));
-    let cells = write(hexes, &sides, &nodes_of, &cells_of, monitor)?;
+    write(cells, hexes, &sides, &nodes_of, &cells_of, monitor)?;
     monitor.checkpoint(TEMPLATES, 1.0)?;
-    Ok(Division { cells, cells_of })
+    Ok(cells_of)
 }
 
 /// The edges and faces of the hexes, as far as they are divided.
@@ -91,7 +85,7 @@ struct Sides {
 
 impl Sides {
     fn of(node_count: usize, hexes: &[Divided], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let skeleton = Skeleton::new(node_count, hexes, |hex| &hex.hex);
+        let skeleton = Skeleton::new(node_count, hexes, |hex| &hex.hex, monitor)?;
         let edge_count = skeleton.edge_count();
         let count = edge_count + skeleton.face_count();
         let none = || parallel::collect(count, |_| AtomicU32::new(NONE));
@@ -182,16 +176,18 @@ fn place(
     })
 }
 
-/// Writes the cells.
+/// Appends the cells.
 fn write(
+    cells: &mut Vec<[NodeId; 8]>,
     hexes: &[Divided],
     sides: &Sides,
     nodes_of: &[u32],
     cells_of: &[u32],
     monitor: &dyn Monitor,
-) -> Result<Vec<[NodeId; 8]>, Cancelled> {
-    let mut cells = vec![[NodeId(0); 8]; cells_of[hexes.len()] as usize];
-    let mut blocks = cut(&mut cells, block_ends(cells_of, 0));
+) -> Result<(), Cancelled> {
+    let first = cells.len();
+    cells.resize(first + cells_of[hexes.len()] as usize, [NodeId(0); 8]);
+    let mut blocks = cut(&mut cells[first..], block_ends(cells_of, 0));
     parallel::try_for_each_mut(&mut blocks, monitor, |k, cells| {
         let mut cells = cells.iter_mut();
         for (h, hex) in hexes.iter().enumerate().skip(k * BLOCK).take(BLOCK) {
@@ -200,6 +196,5 @@ fn write(
                 *cell = nodes;
             }
         }
-    })?;
-    Ok(cells)
+    })
 }

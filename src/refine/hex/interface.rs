@@ -1,8 +1,11 @@
 //! The interface: where refined hexes and coarse ones meet.
 
-use super::skeleton::{FACES_AT, Stars, one_way};
+use super::blocks::in_blocks;
+use super::skeleton::{Stars, one_way};
 use crate::mesh::NodeId;
-use crate::parallel;
+use crate::mesh::numbering::hex::FACES_AT;
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor, parallel};
 
 /// The nodes that refined and coarse hexes share, and the hexes there.
 pub(super) struct Interface<'a> {
@@ -22,26 +25,41 @@ const NONE: u32 = u32::MAX;
 
 impl<'a> Interface<'a> {
     /// The interface of the set `refined` in a mesh of `node_count` nodes.
-    pub(super) fn new(node_count: usize, hexes: &'a [[NodeId; 8]], refined: &'a [bool]) -> Self {
-        let mut sides = vec![0u8; node_count + 1];
-        for (hex, &refined) in hexes.iter().zip(refined) {
-            for node in hex {
-                sides[node.index()] |= 1 << u8::from(refined);
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub(super) fn new(
+        node_count: usize,
+        hexes: &'a [[NodeId; 8]],
+        refined: &'a [bool],
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let mut sides = vec![0u8; node_count];
+        for batch in batches(hexes.len(), monitor) {
+            let batch = batch?;
+            for (hex, &refined) in hexes[batch.clone()].iter().zip(&refined[batch]) {
+                for node in hex {
+                    sides[node.index()] |= 1 << u8::from(refined);
+                }
             }
         }
         let mut place = vec![NONE; node_count];
         let mut nodes = Vec::new();
-        for node in (0..node_count).filter(|&node| sides[node] == 3) {
-            place[node] = nodes.len() as u32;
-            nodes.push(NodeId::new(node));
+        for batch in batches(node_count, monitor) {
+            for node in batch?.filter(|&node| sides[node] == 3) {
+                place[node] = nodes.len() as u32;
+                nodes.push(NodeId::new(node));
+            }
         }
+        drop(sides);
         let is_shell = |hex: usize| hexes[hex].iter().any(|n| place[n.index()] != NONE);
-        let shell = parallel::filter(hexes.len(), is_shell);
+        let shell = parallel::try_filter(hexes.len(), monitor, is_shell)?;
         // Nodes that are none of the interface share a last star, which is never asked for.
         let last = NodeId::new(nodes.len());
         let at = |node: NodeId| if place[node.index()] == NONE { last } else { NodeId(place[node.index()]) };
-        let stars = Stars::new(nodes.len() + 1, shell.iter().map(|&hex| hexes[hex as usize].map(at)));
-        Self { hexes, refined, nodes, place, shell, stars }
+        let stars = Stars::new(nodes.len() + 1, shell.len(), |k| hexes[shell[k] as usize].map(at));
+        monitor.proceed()?;
+        Ok(Self { hexes, refined, nodes, place, shell, stars })
     }
 
     /// The place of a node of the mesh in `nodes`, if it is there.
@@ -51,8 +69,8 @@ impl<'a> Interface<'a> {
     }
 
     /// The faces between refined and coarse hexes, in the order of their least nodes.
-    pub(super) fn faces(&self) -> Vec<InterfaceFace> {
-        parallel::gather_with(self.nodes.len(), Star::default, |star, place, faces| {
+    pub(super) fn faces(&self, monitor: &dyn Monitor) -> Result<Vec<InterfaceFace>, Cancelled> {
+        let at = |star: &mut Star, place: usize, found: &mut Vec<InterfaceFace>| {
             star.load(self, place);
             let least = |face: &&StarFace| face.rest.iter().all(|&n| n > star.node);
             let sides = star.faces.iter().filter(least).filter_map(|face| {
@@ -66,8 +84,9 @@ impl<'a> Interface<'a> {
                     coarse_face: coarse.1,
                 })
             });
-            faces.extend(sides);
-        })
+            found.extend(sides);
+        };
+        in_blocks(self.nodes.len(), monitor, Star::default, at)
     }
 }
 

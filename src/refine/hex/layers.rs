@@ -15,19 +15,16 @@
 //!
 //! Others have no template and are refused; the forest's closure prevents them. No hex is inverted.
 
-use super::couple::role_of;
 use super::divide::{Divided, divide};
 use super::interface::{Interface, InterfaceFace};
 use super::quarters::{Quarter, place_quarters};
-use super::skeleton::NEIGHBOURS;
 use super::stage::{NO_OCTANT, StageError};
 use super::transition::{Transition, Transitions};
-use crate::Monitor;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
-use crate::mesh::numbering::hex::FACES;
-use crate::parallel;
+use crate::mesh::numbering::hex::{FACES, NEIGHBOURS, apart};
 use crate::template::hex::{COLUMN, CORNER, SLAB, Selected, select, symmetry_to};
+use crate::{Monitor, parallel};
 
 /// Cuts the coarse hexes at the interface, appending to `positions`, and says what their pieces become.
 ///
@@ -39,14 +36,14 @@ pub(super) fn layers(
     octant: &[u8],
     monitor: &dyn Monitor,
 ) -> Result<Transitions, StageError> {
-    let faces = interface.faces();
+    let faces = interface.faces(monitor)?;
     let cut = layer_hexes(interface, &faces, octant).map_err(StageError::Forbidden)?;
     let divided: Vec<Divided> = cut.iter().map(|&(_, divided)| divided).collect();
-    let division = divide(positions, &divided, monitor)?;
+    let mut cells = Vec::new();
+    let cells_of = divide(positions, &mut cells, &divided, monitor)?;
     let (mut transitions, mut quarters, mut quarters_from) = (Transitions::default(), Vec::new(), Vec::new());
     for (k, &(hex, _)) in cut.iter().enumerate() {
-        let pieces = division.cells_of[k] as usize..division.cells_of[k + 1] as usize;
-        for &piece in &division.cells[pieces] {
+        for &piece in &cells[cells_of[k] as usize..cells_of[k + 1] as usize] {
             match Piece::of(interface, hex, octant, piece) {
                 Piece::Whole => transitions.whole.push((hex, piece)),
                 Piece::Face(quarter) => {
@@ -135,10 +132,12 @@ enum Piece {
 impl Piece {
     fn of(interface: &Interface, hex: u32, octant: &[u8], piece: [NodeId; 8]) -> Self {
         let nodes = &interface.hexes[hex as usize];
+        // A hex without an octant has one refined node alone, whose role is not asked for.
+        let octant = octant[hex as usize] % 8;
         let mut refined = [None; 8];
         for (role, node) in refined.iter_mut().zip(piece) {
             let corner = nodes.iter().position(|&n| n == node && interface.place(n).is_some());
-            *role = corner.map(|corner| role_of(octant[hex as usize], corner as u8));
+            *role = corner.map(|corner| apart(octant.into(), corner));
         }
         let with_role = |wanted: usize| (0..8u8).filter(move |&k| refined[usize::from(k)] == Some(wanted));
         match refined.iter().flatten().count() {

@@ -10,7 +10,7 @@
 //! 4. Divide refined hexes and transition hexes, and weld what they share (`skeleton`, `divide`, `transition`).
 //!
 //! Between the stages the caller refines what a [`StageError::Conflict`] names, and may smooth the layer
-//! ([`Stage::layer_nodes`]).
+//! ([`StageResult::layer_nodes`]).
 //!
 //! **Promises.** The mesh conforms: hexes share whole faces, by node ids. Boundary nodes stay on the boundary's faces
 //! and ridges where these are planar and straight. Method I inverts no hex of a mesh of convex hexes with planar faces;
@@ -41,22 +41,31 @@ mod attempt;
 mod blocks;
 mod couple;
 mod divide;
+mod forecast;
+mod input;
 mod interface;
 mod layers;
+mod local;
 mod options;
+mod outline;
 mod pillow;
 mod pinch;
 mod pipeline;
 mod plan;
 mod quarters;
+mod refinement;
 mod regions;
+mod ridges;
 mod shift;
 mod skeleton;
 mod stage;
 mod thirds;
 mod transition;
+mod trees;
 
+pub use forecast::{HexForecast, StageForecast};
 pub use options::{Added, HexOptions, HexRefineError, Method, RefinedHexes};
 pub use pipeline::refine_hexes;
 pub use plan::HexPlan;
-pub use stage::{NO_ELEMENT, NO_OCTANT, Stage, StageError, StageMesh, StageReport, stage};
+pub use refinement::HexRefinement;
+pub use stage::{NO_ELEMENT, NO_OCTANT, StageError, StageMesh, StageReport, StageResult, stage};

@@ -19,8 +19,9 @@ pub enum Method {
     Two,
     /// 3-refinement: a pillow, then hexes in 27 and a template that needs no groups. Any set.
     Three,
-    /// Method II, whose families can always be grouped. For a single stage: or 3-refinement of sets whose interface
-    /// cannot be grouped two by two.
+    /// Method II. Where the interface within the input's own hexes can be grouped two by two, these need no families,
+    /// and hexes away from it stay as they are; else all hexes are refined once, as with Method II told by name. For
+    /// a single stage: 3-refinement of sets whose interface cannot be grouped.
     #[default]
     Auto,
 }
@@ -38,7 +39,8 @@ impl Method {
 pub struct HexOptions {
     /// How refined hexes and coarse ones are joined.
     pub method: Method,
-    /// No edge longer than this, anywhere.
+    /// Divide elements until none has an edge longer than this. Smoothing moves nodes near transitions afterwards, and
+    /// may make an edge there somewhat longer again.
     pub edge_length: Option<f64>,
     /// Refine everything at least this many times.
     pub levels: Option<u8>,
@@ -78,7 +80,8 @@ impl Default for HexOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Added {
-    /// What the rules of conforming refinement asked for, before the work.
+    /// What the rules of conforming refinement asked for; also after the elements below were added, whose siblings
+    /// count among `families`.
     #[serde(flatten)]
     pub closure: Closure,
     /// At places where the interface cannot be separated.
@@ -149,6 +152,24 @@ pub enum HexRefineError {
     /// A size or a region cannot be met.
     #[error(transparent)]
     Sizing(SizingError),
+    /// A caller gave another number of targets than there are candidates.
+    #[error("there are {given} targets for {wanted} candidates; give one for each")]
+    TargetCount {
+        /// How many were given.
+        given: usize,
+        /// How many candidates there are.
+        wanted: usize,
+    },
+    /// A caller's target is no length above 0.
+    #[error(
+        "the target of candidate {candidate} is {value}; give a length above 0, or infinity to leave it as it is"
+    )]
+    Target {
+        /// Which candidate, from 0.
+        candidate: usize,
+        /// Its target.
+        value: f64,
+    },
     /// The mesh would have more hexes than allowed.
     #[error(
         "level {level} would bring the mesh to {hexes} hexes or more, over the limit of {limit}; raise the edge length \
@@ -182,6 +203,8 @@ impl HexRefineError {
             Self::Inverted(_) => "mesh-inverted",
             Self::Sizing(error) => error.code(),
             Self::Option { .. } => "option-out-of-range",
+            Self::TargetCount { .. } => "target-count",
+            Self::Target { .. } => "target-out-of-range",
             Self::TooManyHexes { .. } => "too-many-hexes",
             Self::NotPositive(_) => "mesh-not-positive",
             Self::NoTemplate(_) => "no-template",
@@ -197,4 +220,25 @@ impl From<SizingError> for HexRefineError {
             error => Self::Sizing(error),
         }
     }
+}
+
+/// Refuses options out of range.
+pub(super) fn validate(options: &HexOptions) -> Result<(), HexRefineError> {
+    let out_of_range = |option, value: String, wanted| Err(HexRefineError::Option { option, value, wanted });
+    if options.max_levels > HexOptions::DEEPEST_LEVEL {
+        return out_of_range("maxLevels", options.max_levels.to_string(), "give at most 20");
+    }
+    if let Some(levels) = options.levels.filter(|&l| l > options.max_levels) {
+        return out_of_range("levels", levels.to_string(), "give at most maxLevels, or raise that");
+    }
+    if options.max_hexes > HexOptions::MOST_HEXES {
+        return out_of_range("maxHexes", options.max_hexes.to_string(), "give at most 2^28");
+    }
+    Ok(())
+}
+
+/// Refuses a mesh of more hexes than the options allow.
+pub(super) fn check_size(options: &HexOptions, level: u8, hexes: u64) -> Result<(), HexRefineError> {
+    let limit = options.max_hexes;
+    if hexes > limit { Err(HexRefineError::TooManyHexes { level, hexes, limit }) } else { Ok(()) }
 }

@@ -21,7 +21,8 @@ use super::blocks::{BLOCK, offsets};
 use super::interface::{Interface, InterfaceFace, Star};
 use super::pinch::{Pinches, add_coarse};
 use super::regions::Regions;
-use super::shift::{Ridges, Shifts};
+use super::ridges::Ridges;
+use super::shift::Shifts;
 use super::stage::StageError;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
@@ -72,17 +73,18 @@ pub(super) fn pillow(
     monitor: &dyn Monitor,
 ) -> Result<Pillow, StageError> {
     monitor.checkpoint(PILLOW, 0.0)?;
-    let mut pinches = Pinches::find(interface);
-    let more = pinches.resolve(interface);
+    let mut pinches = Pinches::find(interface, monitor)?;
+    let more = pinches.resolve(interface, monitor)?;
     if !more.is_empty() {
         return Err(StageError::Conflict(more));
     }
     monitor.checkpoint(PILLOW, 0.4)?;
-    let ridges = Ridges::new(positions, interface, &pinches);
+    let ridges = Ridges::new(positions, interface, &pinches, monitor)?;
     let copies = Copies::new(positions, interface, &pinches, &ridges, monitor)?;
     monitor.checkpoint(PILLOW, 0.8)?;
     let hexes = copies.applied(interface);
-    let layer = interface.faces().into_iter().map(|face| layer_hex(interface, &hexes, face)).collect();
+    let layer =
+        interface.faces(monitor)?.into_iter().map(|face| layer_hex(interface, &hexes, face)).collect();
     let mut all = Vec::with_capacity(positions.len() + copies.points.len());
     all.extend_from_slice(positions);
     all.extend_from_slice(&copies.points);
@@ -164,8 +166,10 @@ impl Copies {
             star.load(interface, place);
             regions.load(interface, &star, pinches, place);
             shifts.load(positions, interface, &star, &regions);
-            shifts.choose_keepers(&regions, ridges.staying_side(place));
-            if !regions.are_trees() || shifts.is_stuck() {
+            let staying_side = ridges.staying_side(place);
+            shifts.choose_keepers(&regions, staying_side);
+            let is_whole = shifts.keeps_ridges(&regions, staying_side);
+            if !regions.are_trees() || shifts.is_stuck() || !is_whole {
                 add_coarse(&star, &mut block.more, |_| true);
             }
             block.of_use.extend(regions.of_hex.iter().map(|&region| shifts.copy(region as usize)));

@@ -16,10 +16,14 @@
 //! faces would meet twice. The coarse side is joined unless that fails there; if the refined side fails too,
 //! a coarse hex at the edge must be refined as well.
 
+use std::collections::VecDeque;
+
+use super::blocks::in_blocks;
 use super::interface::{Interface, Star};
 use super::regions::{Regions, has_edge};
 use crate::mesh::NodeId;
-use crate::parallel;
+use crate::mesh::topology::Bins;
+use crate::{Cancelled, Monitor};
 
 /// A pinched edge.
 #[derive(Clone, Copy)]
@@ -42,16 +46,17 @@ pub(super) struct Pinches {
 
 impl Pinches {
     /// Finds the pinched edges; the coarse runs are joined at all of them.
-    pub(super) fn find(interface: &Interface) -> Self {
-        let edges = parallel::gather_with(interface.nodes.len(), Star::default, |star, place, edges| {
+    pub(super) fn find(interface: &Interface, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let at = |star: &mut Star, place: usize, found: &mut Vec<Pinch>| {
             star.load(interface, place);
-            edges.extend(pinches_above(star));
-        });
+            found.extend(pinches_above(star));
+        };
+        let edges = in_blocks(interface.nodes.len(), monitor, Star::default, at)?;
         let mut at_node = vec![false; interface.nodes.len()];
         for place in edges.iter().flat_map(|edge| edge.ends).filter_map(|end| interface.place(end)) {
             at_node[place] = true;
         }
-        Self { edges, at_node }
+        Ok(Self { edges, at_node })
     }
 
     /// Number of pinched edges.
@@ -71,31 +76,51 @@ impl Pinches {
     }
 
     /// Decides which side each edge joins. Returns the coarse hexes that must be refined too, ascending; none if
-    /// all edges can be passed.
-    pub(super) fn resolve(&mut self, interface: &Interface) -> Vec<u32> {
+    /// all edges can be passed. An edge that changes sides has its neighbours looked at again: each does so once.
+    pub(super) fn resolve(
+        &mut self,
+        interface: &Interface,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<u32>, Cancelled> {
         let (mut star, mut regions) = (Star::default(), Regions::default());
-        let mut changed = true;
-        while changed {
-            changed = false;
-            for k in 0..self.edges.len() {
-                if !self.edges[k].joins_refined && !self.can_pass(k, interface, &mut star, &mut regions) {
-                    self.edges[k].joins_refined = true;
-                    changed = true;
+        let ends: Vec<[usize; 2]> = self.edges.iter().map(|edge| places(interface, edge)).collect();
+        let at_node = Bins::of(interface.nodes.len(), ends.as_flattened().iter().copied());
+        let mut queue: VecDeque<usize> = (0..self.edges.len()).collect();
+        let mut is_queued = vec![true; self.edges.len()];
+        let mut steps = 0usize;
+        while let Some(k) = queue.pop_front() {
+            steps += 1;
+            if steps.is_multiple_of(ASKED) {
+                monitor.proceed()?;
+            }
+            is_queued[k] = false;
+            if self.edges[k].joins_refined || self.can_pass(k, interface, &mut star, &mut regions) {
+                continue;
+            }
+            self.edges[k].joins_refined = true;
+            for other in ends[k].iter().flat_map(|&end| at_node.at(end)).map(|&place| place as usize / 2) {
+                if !self.edges[other].joins_refined && !std::mem::replace(&mut is_queued[other], true) {
+                    queue.push_back(other);
                 }
             }
         }
-        let mut more = Vec::new();
-        for k in 0..self.edges.len() {
+        self.impassable(interface, monitor)
+    }
+
+    /// For each edge that cannot be passed a coarse hex at it, ascending.
+    fn impassable(&self, interface: &Interface, monitor: &dyn Monitor) -> Result<Vec<u32>, Cancelled> {
+        let (mut star, mut regions, mut more) = (Star::default(), Regions::default(), Vec::new());
+        for (k, edge) in self.edges.iter().enumerate() {
+            if k.is_multiple_of(ASKED) {
+                monitor.proceed()?;
+            }
             if !self.can_pass(k, interface, &mut star, &mut regions) {
-                let end = self.edges[k].ends[1];
-                let at_edge = |star: &Star, hex: usize| has_edge(interface, star, hex, end);
-                let place = interface.place(self.edges[k].ends[0]).expect("an end is of the interface");
-                star.load(interface, place);
-                add_coarse(&star, &mut more, |hex| at_edge(&star, hex));
+                star.load(interface, places(interface, edge)[0]);
+                add_coarse(&star, &mut more, |hex| has_edge(interface, &star, hex, edge.ends[1]));
             }
         }
         more.sort_unstable();
-        more
+        Ok(more)
     }
 
     /// Do the separated runs of edge `k` lie in different regions at both ends, and does at most one region
@@ -111,6 +136,14 @@ impl Pinches {
                 && !(pinch.on_boundary && regions.forced_count() > 1)
         })
     }
+}
+
+/// Edges that are looked at before the monitor is asked again.
+const ASKED: usize = 1 << 10;
+
+/// The places of an edge's ends.
+fn places(interface: &Interface, edge: &Pinch) -> [usize; 2] {
+    edge.ends.map(|end| interface.place(end).expect("both ends are of the interface"))
 }
 
 /// The pinched edges from a star's node to greater ones, by their other ends.

@@ -1,28 +1,25 @@
 //! Conforming refinement of hex meshes, from the input to the result (section 3).
 //!
-//! 1. Decide what to refine and close the octree ([`HexPlan`]).
-//! 2. Level by level, coarse to fine, on the positions as they are: refine what the octree refines, with the
-//!    transitions of the method (`stage`), then untangle and smooth these (`optimize`).
-//!    3-refinement needs no octree: there the hexes themselves are asked level by level (`thirds`).
-//! 3. Where an interface cannot be separated, or a hex stays inside out, refine the coarse family there too and begin
-//!    again. Each time the octree grows, so that this ends.
+//! 1. Decide what to refine and close the trees ([`HexPlan`]).
+//! 2. Level by level, coarse to fine, on the positions as they are: refine what the trees refine, with the
+//!    transitions of the method (`stage`), then untangle and smooth these (`attempt`).
+//! 3. Where an interface cannot be separated, or a hex stays inside out, refine the coarse elements there too and go back
+//!    to the coarsest level that this changes. Each time the trees grow, so that this ends; it is given up after
+//!    [`MOST_RESTARTS`].
 //!
 //! **Promises.** The mesh conforms and is a manifold with boundary if the input is one; every hex has a positive
 //! Jacobian, at its corners and inside. Boundary nodes stay on the input's boundary faces, its ridges and its corners.
 
 use std::sync::Mutex;
 
-use super::attempt::{Attempt, attempt, without_template};
-use super::options::{HexOptions, HexRefineError, Method, RefinedHexes};
-use super::plan::{HexPlan, check_size};
-use super::stage::{NO_ELEMENT, NO_OCTANT, Stage as Refined, StageMesh, stage};
-use crate::mesh::topology::hex_boundary;
-use crate::mesh::{HexMesh, QuadMesh};
+use super::attempt::{Attempt, attempt};
+use super::input::boundary_surface;
+use super::options::{HexOptions, HexRefineError, Method, RefinedHexes, check_size};
+use super::plan::HexPlan;
+use super::stage::{NO_ELEMENT, StageMesh, StageReport, StageResult};
+use crate::mesh::HexMesh;
 use crate::optimize::BoundarySurface;
 use crate::{Monitor, Stage};
-
-/// Boundary faces that meet at more than this angle meet at a ridge, in degrees.
-const RIDGE_DEGREES: f64 = 30.0;
 
 /// Refines a hex mesh.
 ///
@@ -52,6 +49,13 @@ pub fn refine_hexes(
     HexPlan::new(input, options, monitor)?.carry_out(monitor)
 }
 
+/// Stages that are made again because more must be refined, at most: hexes that cannot be untangled by then are those
+/// of a mesh that is too distorted.
+const MOST_RESTARTS: usize = 64;
+
+/// A mesh between stages is kept for restarts as long as it has less than this share of the hexes of the next.
+const KEPT: usize = 4;
+
 impl HexPlan<'_> {
     /// Makes the mesh.
     ///
@@ -59,88 +63,106 @@ impl HexPlan<'_> {
     /// If the transitions bring the mesh over the limit of hexes or cannot be untangled, or the monitor stops it.
     pub fn carry_out(mut self, monitor: &dyn Monitor) -> Result<RefinedHexes, HexRefineError> {
         let monitor = &Rising { inner: monitor, told: Mutex::default() };
-        let surface = boundary_surface(&self.input);
-        if self.options.method == Method::Three {
-            return self.in_thirds(&surface, monitor);
-        }
-        loop {
-            match self.stages(&surface, monitor)? {
-                Outcome::Done(refined) => {
-                    let (capped, turned) = (self.capped, self.turned);
-                    return Ok(RefinedHexes { added: self.added, capped, turned, ..refined });
-                }
-                Outcome::Conflict { depth, elements } => {
-                    let more = self.refine_too(depth, &elements, monitor)?;
-                    if more == 0 {
-                        return Err(HexRefineError::NoTemplate(elements.len()));
+        let mut made = Made::of_input(&self.input);
+        if self.outline.is_some() {
+            let surface = boundary_surface(&self.input, monitor)?;
+            let mut restarts = 0;
+            while let Some(attempt) = self.next_stage(&made, &surface, monitor)? {
+                let (hexes, tangled) = match attempt {
+                    Attempt::Made(next) => {
+                        made.push(*next);
+                        continue;
                     }
-                    self.added.conflicts += more;
+                    Attempt::Conflict(hexes) => (hexes, None),
+                    Attempt::Tangled { coarse, hexes } => (coarse, Some(hexes)),
+                };
+                restarts += 1;
+                let more = self.refine_too(made.number, &elements_of(&made.mesh, &hexes), monitor)?;
+                if more.elements == 0 || restarts > MOST_RESTARTS {
+                    return Err(match tangled {
+                        Some(count) => HexRefineError::Tangled(count),
+                        None => HexRefineError::NoTemplate(hexes.len()),
+                    });
                 }
-                Outcome::Tangled { depth, elements, hexes } => {
-                    let more = self.refine_too(depth, &elements, monitor)?;
-                    if more == 0 {
-                        return Err(HexRefineError::Tangled(hexes));
-                    }
-                    self.added.repairs += more;
-                }
+                *(if tangled.is_some() { &mut self.added.repairs } else { &mut self.added.conflicts }) +=
+                    more.elements;
+                made.back_to(more.coarsest, &self.input);
             }
         }
+        let Self { input, added, capped, turned, .. } = self;
+        let Made { mesh, reports: stages, .. } = made;
+        Ok(RefinedHexes { added, capped, turned, stages, ..RefinedHexes::new(&input, mesh) })
     }
 
-    /// Step 2.
-    fn stages(&self, surface: &BoundarySurface, monitor: &dyn Monitor) -> Result<Outcome, HexRefineError> {
-        let (options, input) = (self.options, &self.input);
-        // The octree refines whole families, which can be grouped.
-        let method = if options.method == Method::Auto { Method::Two } else { options.method };
-        let mut mesh = StageMesh::of_input(input.positions.clone(), input.hexes.clone());
-        let Some(forest) = &self.forest else {
-            return Ok(Outcome::Done(RefinedHexes::new(input, mesh)));
+    /// The next stage, if there is one: refines what the trees refine of the next level.
+    fn next_stage(
+        &self,
+        made: &Made,
+        surface: &BoundarySurface,
+        monitor: &dyn Monitor,
+    ) -> Result<Option<Attempt>, HexRefineError> {
+        let Some(outline) = self.outline.as_ref().filter(|outline| made.number < outline.refined.len())
+        else {
+            return Ok(None);
         };
-        let mut reports = Vec::new();
-        let last = forest.levels.iter().take_while(|level| !level.refined.is_empty()).count();
-        let everything = vec![true; mesh.hexes.len()];
-        mesh = stage(&mesh, &everything, method, monitor).map_err(without_template)?.mesh;
-        for (depth, level) in forest.levels[..last].iter().enumerate() {
-            let monitor = &OfLevel { inner: monitor, depth, last };
-            let is_refined = |h: usize| {
-                let element = mesh.element[h];
-                usize::from(mesh.level[h]) == depth + 1
-                    && element != NO_ELEMENT
-                    && level.is_refined[element as usize]
-            };
-            let refined: Vec<bool> = (0..mesh.hexes.len()).map(is_refined).collect();
-            let mut next = match attempt(&mesh, &refined, method, surface, monitor)? {
-                Attempt::Made(next) => next,
-                Attempt::Conflict(hexes) => {
-                    return Ok(Outcome::Conflict { depth, elements: elements_of(&mesh, &hexes) });
-                }
-                Attempt::Tangled { coarse, hexes } => {
-                    return Ok(Outcome::Tangled { depth, elements: elements_of(&mesh, &coarse), hexes });
-                }
-            };
-            check_size(options, depth as u8 + 2, next.mesh.hexes.len() as u64)?;
-            number_as_forest(&mut next, &mesh, &level.refined);
-            reports.push(next.report);
-            mesh = next.mesh;
+        let (number, mesh) = (made.number, &made.mesh);
+        let monitor = &OfLevel { inner: monitor, number, last: outline.refined.len() };
+        let is_refined = outline.is_refined(number, self.input.hexes.len());
+        let of_hex = |h: usize| {
+            let element = mesh.element[h];
+            usize::from(mesh.level[h]) == number && element != NO_ELEMENT && is_refined[element as usize]
+        };
+        let refined: Vec<bool> = (0..mesh.hexes.len()).map(of_hex).collect();
+        drop(is_refined);
+        let method = match self.options.method {
+            // What the plan refines can be grouped.
+            Method::Auto => Method::Two,
+            method => method,
+        };
+        let mut attempt = attempt(mesh, &refined, method, surface, monitor)?;
+        if let Attempt::Made(next) = &mut attempt {
+            check_size(self.options, number as u8 + 1, next.mesh.hexes.len() as u64)?;
+            number_as_trees(next, mesh, &outline.refined[number], outline.children);
         }
-        Ok(Outcome::Done(RefinedHexes { stages: reports, ..RefinedHexes::new(input, mesh) }))
+        Ok(Some(attempt))
     }
 }
 
-/// How the stages ended.
-enum Outcome {
-    Done(RefinedHexes),
-    /// These elements of `levels[depth]` are to be refined too: the interface cannot be separated there.
-    Conflict {
-        depth: usize,
-        elements: Vec<u32>,
-    },
-    /// The same, for so many hexes that stay inside out.
-    Tangled {
-        depth: usize,
-        elements: Vec<u32>,
-        hexes: usize,
-    },
+/// What the stages have made so far.
+struct Made {
+    /// The mesh before the stage of level `number`.
+    mesh: StageMesh,
+    number: usize,
+    reports: Vec<StageReport>,
+    /// Meshes before earlier stages, with their levels.
+    kept: Vec<(usize, StageMesh)>,
+}
+
+impl Made {
+    fn of_input(input: &HexMesh) -> Self {
+        let mesh = StageMesh::of_input(input.positions.clone(), input.hexes.clone());
+        Self { mesh, number: 0, reports: Vec::new(), kept: Vec::new() }
+    }
+
+    fn push(&mut self, next: StageResult) {
+        let before = std::mem::replace(&mut self.mesh, next.mesh);
+        if KEPT * before.hexes.len() < self.mesh.hexes.len() {
+            self.kept.push((self.number, before));
+        }
+        self.number += 1;
+        self.reports.push(next.report);
+    }
+
+    /// Goes back to the mesh before the stage of level `number`, or to an earlier one.
+    fn back_to(&mut self, number: usize, input: &HexMesh) {
+        while self.number > number {
+            match self.kept.pop() {
+                Some((kept, mesh)) => (self.number, self.mesh) = (kept, mesh),
+                None => *self = Self::of_input(input),
+            }
+        }
+        self.reports.truncate(self.number);
+    }
 }
 
 /// The elements that hexes of a mesh are.
@@ -148,39 +170,33 @@ fn elements_of(mesh: &StageMesh, hexes: &[u32]) -> Vec<u32> {
     hexes.iter().map(|&h| mesh.element[h as usize]).filter(|&e| e != NO_ELEMENT).collect()
 }
 
-/// Gives the children that a stage made the numbers that they have in the forest, where families stand in the order in
+/// Gives the children that a stage made the numbers that they have in the trees, where families stand in the order in
 /// which elements were refined.
-fn number_as_forest(next: &mut Refined, before: &StageMesh, refined: &[u32]) {
+fn number_as_trees(next: &mut StageResult, before: &StageMesh, refined: &[u32], children: usize) {
     let count = refined.iter().max().map_or(0, |&most| most as usize + 1);
     let mut rank = vec![0; count];
     for (k, &element) in refined.iter().enumerate() {
         rank[element as usize] = k as u32;
     }
-    for (h, &from) in next.from.iter().enumerate() {
-        let is_child = next.mesh.level[h] > before.level[from as usize];
-        if is_child && next.mesh.octant[h] != NO_OCTANT {
+    let children = children as u32;
+    for (h, &from) in next.from.iter().enumerate().take(next.first_transition) {
+        if next.mesh.level[h] > before.level[from as usize] {
             let family = rank[before.element[from as usize] as usize];
-            next.mesh.element[h] = 8 * family + u32::from(next.mesh.octant[h]);
+            next.mesh.element[h] = children * family + next.mesh.element[h] % children;
         }
     }
-}
-
-/// The input's boundary, on which boundary nodes are kept.
-fn boundary_surface(input: &HexMesh) -> BoundarySurface {
-    let quads = hex_boundary(&input.hexes).into_iter().map(|(face, _)| face).collect();
-    BoundarySurface::new(&QuadMesh { positions: input.positions.clone(), quads }, RIDGE_DEGREES)
 }
 
 /// Tells the progress of one level's stages as a part of all levels'.
 struct OfLevel<'a> {
     inner: &'a dyn Monitor,
-    depth: usize,
+    number: usize,
     last: usize,
 }
 
 impl Monitor for OfLevel<'_> {
     fn progress(&self, stage: Stage, fraction: f64) {
-        self.inner.progress(stage, (self.depth as f64 + fraction) / self.last as f64);
+        self.inner.progress(stage, (self.number as f64 + fraction) / self.last as f64);
     }
 
     fn cancelled(&self) -> bool {

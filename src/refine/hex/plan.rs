@@ -1,40 +1,43 @@
-//! What is to be refined, decided before a hex is made: the octree of section 3.
+//! What will be refined, decided before a hex is made: the trees of section 3, closed.
 //!
-//! 1. Check and orient the input.
-//! 2. Refine level 0 once everywhere, if anything is to be finer at all; it tells edge, face and volume nodes apart.
-//! 3. Level by level, refine the elements that the sizing asks for.
-//! 4. Close the forest: whole families around a volume node, strong balance, what the method's templates fit.
+//! 1. Decide level by level what is wanted finer ([`HexRefinement`]).
+//! 2. Close the trees. Octrees: whole families around a volume node, strong balance, what the method's templates fit;
+//!    trees of 27: graded levels.
+//! 3. With [`Method::Auto`], ask whether the interface within level 0 can be grouped two by two. If it cannot,
+//!    all of level 0 is refined, which makes families of everything.
+//! 4. Look at each level's interface (`forecast`). Where it cannot be separated, refine more, and close again.
 
-use super::options::{Added, HexOptions, HexRefineError, Method};
-use crate::forest::HexForest;
-use crate::geometry::Point;
-use crate::mesh::check::{Defect, summary};
-use crate::mesh::numbering::hex::EDGES;
-use crate::mesh::quality::{Certainty, is_positive};
-use crate::mesh::{HexId, HexMesh, NodeId, check_hexes, orient_hexes};
-use crate::parallel;
-use crate::sizing::{SizeField, SizeOptions, SizedElement};
+use super::forecast::{Foreseen, HexForecast, StageForecast, foresee};
+use super::options::{Added, HexOptions, HexRefineError, Method, check_size};
+use super::outline::Outline;
+use super::refinement::HexRefinement;
+use super::stage::{StageMesh, can_be_joined};
+use super::trees::Trees;
+use crate::mesh::HexMesh;
 use crate::{Monitor, Stage};
 
-const REFINE: Stage = Stage("refine");
 const CLOSE: Stage = Stage("close");
 
-/// Hexes that an element of the octree becomes.
-const CHILDREN: u64 = 8;
-
-/// The octree of a refinement, and what closing it has added.
+/// What is refined, what closing the trees has added, and what will come of it.
 #[derive(Debug)]
 pub struct HexPlan<'a> {
     pub(super) options: &'a HexOptions,
     /// The input, oriented, without unused nodes.
     pub(super) input: HexMesh,
-    /// What is wanted finer.
-    pub(super) field: SizeField,
-    /// None if nothing is to be refined, and for 3-refinement, whose trees are no octrees.
-    pub(super) forest: Option<HexForest>,
+    /// None if nothing is to be refined.
+    pub(super) outline: Option<Outline>,
     pub(super) added: Added,
     pub(super) capped: usize,
     pub(super) turned: usize,
+    forecast: HexForecast,
+}
+
+/// What a plan was given more to refine.
+pub(super) struct More {
+    /// Elements that were asked for and were not refined yet.
+    pub(super) elements: usize,
+    /// The coarsest level with elements that are refined now and were not before.
+    pub(super) coarsest: usize,
 }
 
 impl<'a> HexPlan<'a> {
@@ -48,17 +51,24 @@ impl<'a> HexPlan<'a> {
         options: &'a HexOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
-        validate(options)?;
-        let (input, turned) = oriented(input)?;
-        monitor.proceed()?;
-        let &HexOptions { edge_length, gradation, ref regions, .. } = options;
-        let sizes = SizeOptions { edge_length, curvature: None, gradation, regions };
-        let field = SizeField::of_hexes(&input, sizes)?;
-        let mut plan =
-            Self { options, input, field, forest: None, added: Added::default(), capped: 0, turned };
-        if options.method != Method::Three {
-            plan.refine(monitor)?;
-            plan.close(monitor)?;
+        let mut refinement = HexRefinement::new(input, options, monitor)?;
+        while refinement.advance(None, monitor)? {}
+        refinement.plan(monitor)
+    }
+
+    /// Closes the trees over `input`.
+    pub(super) fn closed(
+        options: &'a HexOptions,
+        input: HexMesh,
+        trees: Option<Trees>,
+        (capped, turned): (usize, usize),
+        monitor: &dyn Monitor,
+    ) -> Result<Self, HexRefineError> {
+        let forecast = HexForecast::new(input.hexes.len(), Vec::new());
+        let added = Added::default();
+        let mut plan = Self { options, input, outline: None, added, capped, turned, forecast };
+        if let Some(trees) = trees {
+            plan.settle(trees, monitor)?;
         }
         Ok(plan)
     }
@@ -68,167 +78,110 @@ impl<'a> HexPlan<'a> {
         self.added
     }
 
-    /// Hexes of the octree; the mesh will have these and those of the transitions.
-    pub fn octree_hexes(&self) -> usize {
-        self.forest.as_ref().map_or(self.input.hexes.len(), HexForest::leaf_count)
+    /// How large the mesh will be, and what its transitions will take.
+    pub fn forecast(&self) -> &HexForecast {
+        &self.forecast
     }
 
-    /// Steps 2 and 3.
-    fn refine(&mut self, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
-        monitor.checkpoint(REFINE, 0.0)?;
-        let at_input = Level { elements: &self.input.hexes, positions: &self.input.positions, number: 0 };
-        let wanted = at_input.wanted(&self.field, self.options, monitor)?.len();
-        if wanted == 0 || self.options.max_levels == 0 {
-            self.capped = wanted;
-            return Ok(());
-        }
-        check_size(self.options, 1, CHILDREN * self.input.hexes.len() as u64)?;
-        let mut forest = HexForest::refined_once(&self.input);
-        loop {
-            let depth = forest.levels.len() - 1;
-            let number = forest.levels.len() as u8;
-            let level =
-                Level { elements: &forest.levels[depth].elements, positions: &forest.positions, number };
-            let marked = level.wanted(&self.field, self.options, monitor)?;
-            if marked.is_empty() {
-                break;
-            }
-            if number >= self.options.max_levels {
-                self.capped = marked.len();
-                break;
-            }
-            let more = (CHILDREN - 1) * marked.len() as u64;
-            check_size(self.options, number + 1, forest.leaf_count() as u64 + more)?;
-            monitor.checkpoint(REFINE, f64::from(number) / f64::from(self.options.max_levels))?;
-            forest.split(depth, &marked);
-        }
-        self.forest = Some(forest);
-        Ok(())
+    /// Hexes of the trees; the mesh will have these and those of the transitions.
+    pub fn tree_hexes(&self) -> usize {
+        let hexes = self.input.hexes.len();
+        self.outline.as_ref().map_or(hexes, |outline| outline.leaf_count(hexes))
     }
 
-    /// Step 4.
-    fn close(&mut self, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
-        let Some(forest) = &mut self.forest else { return Ok(()) };
+    /// Steps 2 to 4.
+    fn settle(&mut self, mut trees: Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
         monitor.checkpoint(CLOSE, 0.0)?;
-        let more = forest.close(self.options.method.admits(), monitor)?;
-        let closure = &mut self.added.closure;
-        closure.families += more.families;
-        closure.balance += more.balance;
-        closure.method += more.method;
-        let deepest = forest.levels.len() as u8;
-        check_size(self.options, deepest, forest.leaf_count() as u64)?;
+        let stages = loop {
+            self.close(&mut trees, monitor)?;
+            self.group(&mut trees, monitor)?;
+            monitor.checkpoint(CLOSE, 0.5)?;
+            match self.foresee(&trees, monitor)? {
+                Ok(stages) => break stages,
+                Err((number, more)) => {
+                    self.added.conflicts += more.len();
+                    trees.split(number, &more, monitor)?;
+                }
+            }
+        };
+        self.forecast = HexForecast::new(self.input.hexes.len(), stages);
+        self.outline = Some(Outline::of(&trees));
         monitor.checkpoint(CLOSE, 1.0)?;
         Ok(())
     }
 
-    /// Refines more elements of `levels[depth]`, with what this calls for; returns how many there were to refine.
+    /// Step 2.
+    fn close(&mut self, trees: &mut Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
+        let more = trees.close(self.options.method.admits(), self.options.max_hexes, monitor)?;
+        let closure = &mut self.added.closure;
+        closure.families += more.families;
+        closure.balance += more.balance;
+        closure.method += more.method;
+        Ok(())
+    }
+
+    /// Step 3.
+    fn group(&mut self, trees: &mut Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
+        let base = trees.level(0);
+        if self.options.method != Method::Auto || base.refined.len() == base.elements.len() {
+            return Ok(());
+        }
+        let mesh = StageMesh::of_input(self.input.positions.clone(), self.input.hexes.clone());
+        if can_be_joined(&mesh, base.is_refined, monitor)? {
+            return Ok(());
+        }
+        let rest = (0..base.elements.len() as u32).filter(|&e| !base.is_refined[e as usize]);
+        let rest: Vec<u32> = rest.collect();
+        let leaves = trees.leaf_count() + (trees.children() - 1) * rest.len();
+        check_size(self.options, 1, leaves as u64)?;
+        trees.split(0, &rest, monitor)?;
+        self.close(trees, monitor)
+    }
+
+    /// Step 4: what the stages will make; or a level and its elements that must be refined too.
+    #[expect(clippy::type_complexity, reason = "a conflict is no error")]
+    fn foresee(
+        &self,
+        trees: &Trees,
+        monitor: &dyn Monitor,
+    ) -> Result<Result<Vec<StageForecast>, (usize, Vec<u32>)>, HexRefineError> {
+        let mut stages = Vec::new();
+        let mut hexes = self.input.hexes.len();
+        let size = (trees.positions().len(), trees.children());
+        for number in 0..trees.depth() - 1 {
+            let mut stage = match foresee(trees.level(number), size, self.options.method, monitor)? {
+                Foreseen::Stage(stage) => stage,
+                Foreseen::Conflict(more) => return Ok(Err((number, more))),
+            };
+            hexes += stage.hexes;
+            stage.hexes = hexes;
+            check_size(self.options, number as u8 + 1, hexes as u64)?;
+            stages.push(stage);
+        }
+        Ok(Ok(stages))
+    }
+
+    /// Refines more elements of level `number`, with what this calls for.
     pub(super) fn refine_too(
         &mut self,
-        depth: usize,
+        number: usize,
         elements: &[u32],
         monitor: &dyn Monitor,
-    ) -> Result<usize, HexRefineError> {
-        let Some(forest) = &mut self.forest else { return Ok(0) };
-        let coarse = |e: &u32| !forest.levels[depth].is_refined[*e as usize];
-        let mut more: Vec<u32> = elements.iter().copied().filter(coarse).collect();
+    ) -> Result<More, HexRefineError> {
+        let nothing = More { elements: 0, coarsest: number };
+        let Some(before) = self.outline.take() else { return Ok(nothing) };
+        let is_refined = before.is_refined(number, self.input.hexes.len());
+        let mut more: Vec<u32> = elements.iter().copied().filter(|&e| !is_refined[e as usize]).collect();
         more.sort_unstable();
         more.dedup();
-        forest.split(depth, &more);
-        self.close(monitor)?;
-        Ok(more.len())
-    }
-}
-
-/// The elements of one level.
-pub(super) struct Level<'a> {
-    pub elements: &'a [[NodeId; 8]],
-    pub positions: &'a [Point],
-    pub number: u8,
-}
-
-impl Level<'_> {
-    /// The elements that are wanted finer.
-    pub fn wanted(
-        &self,
-        field: &SizeField,
-        options: &HexOptions,
-        monitor: &dyn Monitor,
-    ) -> Result<Vec<u32>, HexRefineError> {
-        if options.levels.is_some_and(|levels| self.number < levels) {
-            return Ok((0..self.elements.len() as u32).collect());
+        if more.is_empty() {
+            return Ok(nothing);
         }
-        if field.is_idle_from(self.number) {
-            return Ok(Vec::new());
-        }
-        Ok(parallel::try_filter(self.elements.len(), monitor, |e| self.wants(field, e))?)
+        let mut trees = before.trees(&self.input, monitor)?;
+        trees.split(number, &more, monitor)?;
+        self.settle(trees, monitor)?;
+        let after = self.outline.as_ref().map_or(&[][..], |outline| &outline.refined);
+        let same = before.refined.iter().zip(after).take_while(|(before, after)| before.len() == after.len());
+        Ok(More { elements: more.len(), coarsest: same.count().min(number) })
     }
-
-    fn wants(&self, field: &SizeField, e: usize) -> bool {
-        let corners = self.elements[e].map(|n| self.positions[n.index()]);
-        let length = |[a, b]: [u8; 2]| corners[usize::from(a)].distance_squared(corners[usize::from(b)]);
-        let longest = EDGES.map(length).into_iter().fold(0.0, f64::max).sqrt();
-        field.wants(&SizedElement { corners, longest, level: self.number, root: None })
-    }
-}
-
-/// Step 1: the input with its hexes turned the right way, all of them positive inside, without unused nodes; and how
-/// many were turned.
-fn oriented(input: &HexMesh) -> Result<(HexMesh, usize), HexRefineError> {
-    if input.hexes.is_empty() {
-        return Err(HexRefineError::NoHexes);
-    }
-    let mut mesh = input.clone();
-    let ids_are_good = mesh.hexes.as_flattened().iter().all(|n| n.index() < mesh.positions.len());
-    let turned = if ids_are_good { orient_hexes(&mut mesh)? } else { 0 };
-    let mut defects = check_hexes(&mesh);
-    defects.retain(|defect| !matches!(defect, Defect::UnusedNode { .. }));
-    if !defects.is_empty() {
-        let kinds = summary(&defects).iter().map(ToString::to_string).collect();
-        return Err(HexRefineError::InvalidInput(kinds));
-    }
-    let is_doubtful = |h: usize| {
-        let corners = mesh.hexes[h].map(|n| mesh.positions[n.index()]);
-        (is_positive(&corners) != Certainty::Positive).then_some(HexId::new(h))
-    };
-    let doubtful: Vec<HexId> = parallel::filter_map(mesh.hexes.len(), is_doubtful);
-    if !doubtful.is_empty() {
-        return Err(HexRefineError::NotPositive(doubtful));
-    }
-    drop_unused_nodes(&mut mesh);
-    Ok((mesh, turned))
-}
-
-fn drop_unused_nodes(mesh: &mut HexMesh) {
-    let mut is_used = vec![false; mesh.positions.len()];
-    mesh.hexes.iter().flatten().for_each(|n| is_used[n.index()] = true);
-    let mut number = Vec::with_capacity(is_used.len());
-    let mut count = 0;
-    for &used in &is_used {
-        number.push(NodeId(count));
-        count += u32::from(used);
-    }
-    let mut used = is_used.iter();
-    mesh.positions.retain(|_| *used.next().expect("a flag a node"));
-    parallel::for_each_mut(&mut mesh.hexes, |_, hex| *hex = hex.map(|n| number[n.index()]));
-}
-
-/// Refuses options out of range.
-fn validate(options: &HexOptions) -> Result<(), HexRefineError> {
-    let out_of_range = |option, value: String, wanted| Err(HexRefineError::Option { option, value, wanted });
-    if options.max_levels > HexOptions::DEEPEST_LEVEL {
-        return out_of_range("maxLevels", options.max_levels.to_string(), "give at most 20");
-    }
-    if let Some(levels) = options.levels.filter(|&l| l > options.max_levels) {
-        return out_of_range("levels", levels.to_string(), "give at most maxLevels, or raise that");
-    }
-    if options.max_hexes > HexOptions::MOST_HEXES {
-        return out_of_range("maxHexes", options.max_hexes.to_string(), "give at most 2^28");
-    }
-    Ok(())
-}
-
-/// Refuses a mesh of more hexes than the options allow.
-pub(super) fn check_size(options: &HexOptions, level: u8, hexes: u64) -> Result<(), HexRefineError> {
-    let limit = options.max_hexes;
-    if hexes > limit { Err(HexRefineError::TooManyHexes { level, hexes, limit }) } else { Ok(()) }
 }

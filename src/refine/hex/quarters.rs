@@ -1,8 +1,8 @@
 //! Turns transition hexes with one refined face into quarters of the composite template.
 
 use super::divide::Divided;
-use super::skeleton::NEIGHBOURS;
 use crate::mesh::NodeId;
+use crate::mesh::numbering::hex::NEIGHBOURS;
 use crate::template::hex::{QUARTER, symmetry_to};
 
 /// A transition hex with one refined face, by the corners of that face: at a corner of the parent, at its two edge

@@ -7,8 +7,9 @@
 
 use super::interface::{Interface, Star};
 use super::pinch::Pinches;
-use super::skeleton::NEIGHBOURS;
 use crate::mesh::NodeId;
+use crate::mesh::numbering::hex::NEIGHBOURS;
+use crate::mesh::topology::Sets;
 
 /// The regions of a star. Its buffers serve one node after another.
 #[derive(Default)]
@@ -19,7 +20,7 @@ pub(super) struct Regions {
     pub(super) all: Vec<Region>,
     /// Pairs of neighbours, the lesser first.
     pub(super) neighbours: Vec<[u32; 2]>,
-    sets: SmallSets,
+    sets: Sets,
 }
 
 /// A region.
@@ -42,7 +43,7 @@ impl Regions {
         self.of_hex.clear();
         self.all.clear();
         for hex in 0..star.hexes.len() {
-            let root = self.sets.root(hex);
+            let root = self.sets.root(hex as u32).0 as usize;
             let region = if root == hex {
                 let is_refined = star.is_refined(hex);
                 self.all.push(Region { is_refined, is_forced: false, degree: 0, part: 0 });
@@ -75,7 +76,7 @@ impl Regions {
             if let Some((second, _)) = face.second
                 && star.is_refined(face.first.0) == star.is_refined(second)
             {
-                self.sets.join(face.first.0, second);
+                self.sets.join(face.first.0 as u32, second as u32, false);
             }
         }
         if !pinches.are_at(place) {
@@ -88,7 +89,9 @@ impl Regions {
                 };
                 let mut joined = (0..star.hexes.len()).filter(joined);
                 if let Some(first) = joined.next() {
-                    joined.for_each(|hex| self.sets.join(first, hex));
+                    for hex in joined {
+                        self.sets.join(first as u32, hex as u32, false);
+                    }
                 }
             }
         }
@@ -106,12 +109,12 @@ impl Regions {
         self.neighbours.dedup();
         self.sets.reset(self.all.len());
         for &[a, b] in &self.neighbours {
-            self.sets.join(a as usize, b as usize);
+            self.sets.join(a, b, false);
             self.all[a as usize].degree += 1;
             self.all[b as usize].degree += 1;
         }
         for region in 0..self.all.len() {
-            self.all[region].part = self.sets.root(region) as u32;
+            self.all[region].part = self.sets.root(region as u32).0;
         }
     }
 
@@ -141,14 +144,14 @@ impl Regions {
                 && in_run(face.first.0)
                 && in_run(second)
             {
-                self.sets.join(face.first.0, second);
+                self.sets.join(face.first.0 as u32, second as u32, false);
             }
         }
-        (0..star.hexes.len()).filter(|&a| in_run(a)).all(|a| {
-            (0..a)
-                .filter(|&b| in_run(b))
-                .all(|b| self.of_hex[a] != self.of_hex[b] || self.sets.root(a) == self.sets.root(b))
-        })
+        let Self { of_hex, sets, .. } = self;
+        let mut is_one_run = |a: usize, b: usize| sets.root(a as u32) == sets.root(b as u32);
+        (0..star.hexes.len())
+            .filter(|&a| in_run(a))
+            .all(|a| (0..a).filter(|&b| in_run(b)).all(|b| of_hex[a] != of_hex[b] || is_one_run(a, b)))
     }
 }
 
@@ -162,29 +165,4 @@ pub(super) fn has_edge(interface: &Interface, star: &Star, hex: usize, end: Node
     let (id, corner, _) = star.hexes[hex];
     let nodes = &interface.hexes[id as usize];
     NEIGHBOURS[usize::from(corner)].iter().any(|&k| nodes[usize::from(k)] == end)
-}
-
-/// Disjoint sets of the few hexes of a star; the root of a set is its least member.
-#[derive(Default)]
-struct SmallSets {
-    parent: Vec<usize>,
-}
-
-impl SmallSets {
-    fn reset(&mut self, count: usize) {
-        self.parent.clear();
-        self.parent.extend(0..count);
-    }
-
-    fn root(&self, mut member: usize) -> usize {
-        while self.parent[member] != member {
-            member = self.parent[member];
-        }
-        member
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parent[a.max(b)] = a.min(b);
-    }
 }

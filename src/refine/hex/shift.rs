@@ -7,29 +7,24 @@
 //!
 //! One region keeps the node. In this order it is one
 //! 1. that the outside joins at a pinched edge,
-//! 2. of the side that stays along a ridge (below),
+//! 2. of the side that stays along a ridge (`ridges`),
 //! 3. that owns a boundary face,
 //! 4. that cannot move,
 //! 5. with the most neighbours,
 //! 6. of refined hexes.
-//!
-//! Where the interface runs along a ridge of the boundary, one of the two sides must leave the ridge, and it must be
-//! the same one all along: else a face of the layer would cut the ridge off. If both sides can, it is the one that
-//! leaves the interface more steeply, since the other may slide along the interface's own plane.
 
 use super::interface::{Interface, Star, StarFace};
 use super::pillow::THICKNESS;
-use super::pinch::Pinches;
 use super::regions::Regions;
-use super::skeleton::NEIGHBOURS;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
-use crate::mesh::numbering::hex::FACES;
-use crate::mesh::topology::Sets;
-use crate::parallel;
+use crate::mesh::numbering::hex::{FACES, NEIGHBOURS};
 
-/// The cosine of the angle between boundary faces beyond which their edge is a ridge: 30 degrees.
-const RIDGE: f64 = 0.866;
+/// Boundary faces that meet at more than this angle meet at a ridge, in degrees.
+pub(super) const RIDGE_DEGREES: f64 = 30.0;
+
+/// Its cosine.
+const RIDGE: f64 = 0.866_025_403_784_438_6;
 
 /// The least sine, as a cosine to the normals, of a ridge's direction to the faces beside it.
 const ALONG: f64 = 0.5;
@@ -43,7 +38,7 @@ pub(super) struct Shifts {
     bounds: Vec<Bound>,
     regions: Vec<Shift>,
     /// Edges of the interface along ridges, by their other ends.
-    ridges: Vec<NodeId>,
+    pub(super) ridges: Vec<NodeId>,
 }
 
 /// A boundary face at the node.
@@ -58,6 +53,12 @@ struct Bound {
 #[derive(Clone, Copy, Default)]
 struct Shift {
     is_on_boundary: bool,
+    /// Has it a ridge of its own?
+    is_on_ridge: bool,
+    /// Has it boundary faces at a ridge whose other faces are the other side's?
+    is_at_ridge: bool,
+    /// Would it move along such a ridge, beyond its end?
+    moves_along_ridge: bool,
     /// Which way it moves, if it can; of length 1.
     direction: Option<Point>,
     keeps: bool,
@@ -90,15 +91,16 @@ impl Shifts {
         self.distance = THICKNESS * shortest.sqrt();
         for region in 0..regions.all.len() {
             let is_on_boundary = self.bounds.iter().any(|bound| bound.region == region as u32);
-            let towards = if is_on_boundary {
+            let (towards, is_on_ridge) = if is_on_boundary {
                 self.along_boundary(positions, region as u32)
             } else {
-                Some(mean_center(positions, interface, star, regions, region as u32) - self.at)
+                let center = mean_center(positions, interface, star, regions, region as u32);
+                (Some(center - self.at), false)
             };
             let direction = towards.and_then(Point::try_normalize);
-            self.regions[region] = Shift { is_on_boundary, direction, ..Shift::default() };
+            self.regions[region] = Shift { is_on_boundary, is_on_ridge, direction, ..Shift::default() };
         }
-        self.find_ridges(regions);
+        self.find_ridges(positions, regions);
     }
 
     fn find_bounds(&mut self, positions: &[Point], interface: &Interface, star: &Star, regions: &Regions) {
@@ -116,20 +118,21 @@ impl Shifts {
         }
     }
 
-    /// Which way a region that owns boundary faces moves, if it can.
-    fn along_boundary(&self, positions: &[Point], region: u32) -> Option<Point> {
+    /// Which way a region that owns boundary faces moves, if it can; and whether it has a ridge of its own.
+    fn along_boundary(&self, positions: &[Point], region: u32) -> (Option<Point>, bool) {
         let own = || self.bounds.iter().filter(move |bound| bound.region == region);
-        let first = own().next()?;
+        let Some(first) = own().next() else { return (None, false) };
         if own().all(|bound| bound.normal.dot(first.normal) >= RIDGE) {
             let (sum, count) = own().fold((Point::ZERO, 0.0), |(s, n), bound| (s + bound.center, n + 1.0));
-            return Some(sum / count - self.at);
+            return (Some(sum / count - self.at), false);
         }
         let mut ends = self.ridge_pairs().filter(|(a, b, _)| a.region == region && b.region == region);
-        let (_, _, end) = ends.next()?;
+        let Some((_, _, end)) = ends.next() else { return (None, false) };
         let direction = positions[end.index()] - self.at;
-        let unit = direction.try_normalize()?;
         let is_alone = ends.next().is_none();
-        (is_alone && own().all(|bound| bound.normal.dot(unit).abs() < ALONG)).then_some(direction)
+        let unit = direction.normalize_or_zero();
+        let can_move = is_alone && own().all(|bound| bound.normal.dot(unit).abs() < ALONG);
+        (can_move.then_some(direction), true)
     }
 
     /// Pairs of boundary faces with a ridge between them, and the ridge's other end.
@@ -143,15 +146,39 @@ impl Shifts {
     }
 
     /// Finds the ridges whose faces belong to regions of different sides.
-    fn find_ridges(&mut self, regions: &Regions) {
+    fn find_ridges(&mut self, positions: &[Point], regions: &Regions) {
         let is_refined = |bound: &Bound| regions.all[bound.region as usize].is_refined;
         let between = self.ridge_pairs().filter(|(a, b, _)| is_refined(a) != is_refined(b));
-        let ridges: Vec<NodeId> = between.map(|(_, _, end)| end).collect();
-        self.ridges = ridges;
+        let between: Vec<_> = between.map(|(a, b, end)| ([a.region, b.region], end)).collect();
+        for (beside, end) in between {
+            self.ridges.push(end);
+            let beyond = self.at - positions[end.index()];
+            let is_beyond = |direction: Point| direction.dot(beyond) > RIDGE * beyond.length();
+            for region in beside {
+                let shift = &mut self.regions[region as usize];
+                shift.is_at_ridge = true;
+                shift.moves_along_ridge |= shift.is_on_ridge && shift.direction.is_some_and(is_beyond);
+            }
+        }
+    }
+
+    /// The regions of a side that are at a ridge between the sides.
+    fn at_ridge<'a>(&'a self, regions: &'a Regions, refined: bool) -> impl Iterator<Item = &'a Shift> {
+        let of_side =
+            regions.all.iter().zip(&self.regions).filter(move |(region, _)| region.is_refined == refined);
+        of_side.map(|(_, shift)| shift).filter(|shift| shift.is_at_ridge)
+    }
+
+    /// Do all regions of the side that is to stay on the ridges keep the node, and can those of the other leave?
+    pub(super) fn keeps_ridges(&self, regions: &Regions, staying_side: Option<bool>) -> bool {
+        staying_side.is_none_or(|refined| {
+            self.at_ridge(regions, refined).all(|shift| shift.keeps)
+                && self.at_ridge(regions, !refined).all(|shift| !shift.moves_along_ridge)
+        })
     }
 
     /// How steeply the regions of a side leave the interface: the least sine of their angles to it.
-    fn steepness(
+    pub(super) fn steepness(
         &self,
         positions: &[Point],
         interface: &Interface,
@@ -165,8 +192,14 @@ impl Shifts {
         of_side.filter_map(|(_, shift)| shift.direction).map(|d| d.dot(outward)).fold(1.0, f64::min)
     }
 
-    /// Must regions of a side keep the node, because they cannot move or the outside joins them?
-    fn must_stay(&self, regions: &Regions, refined: bool) -> bool {
+    /// Must a side stay on the ridges, because regions of it cannot move, the outside joins them, or the other side's
+    /// cannot all stay?
+    pub(super) fn must_stay(&self, regions: &Regions, refined: bool) -> bool {
+        if self.at_ridge(regions, !refined).nth(1).is_some()
+            || self.at_ridge(regions, refined).any(|shift| shift.moves_along_ridge)
+        {
+            return true;
+        }
         let of_side =
             regions.all.iter().zip(&self.regions).filter(|(region, _)| region.is_refined == refined);
         of_side.into_iter().any(|(region, shift)| region.is_forced || shift.direction.is_none())
@@ -243,88 +276,4 @@ fn mean_center(
         count += 1.0;
     }
     sum / count
-}
-
-/// Where the interface runs along ridges of the boundary, and which side stays on them.
-pub(super) struct Ridges {
-    staying: Vec<Option<bool>>,
-}
-
-/// What one node says of it.
-struct AtNode {
-    place: usize,
-    /// The ridges' other ends, by place.
-    others: Vec<usize>,
-    coarse_must_stay: bool,
-    refined_must_stay: bool,
-    /// How much more steeply the refined side leaves the interface than the coarse one.
-    refined_is_steeper: f64,
-}
-
-/// What the nodes of a run of ridges say together.
-#[derive(Clone, Copy, Default)]
-struct Verdict {
-    coarse_must_stay: bool,
-    refined_must_stay: bool,
-    refined_is_steeper: f64,
-}
-
-impl Verdict {
-    fn refined_stays(self) -> bool {
-        if self.coarse_must_stay != self.refined_must_stay {
-            return self.refined_must_stay;
-        }
-        self.refined_is_steeper <= 1e-6
-    }
-}
-
-impl Ridges {
-    /// Decides for each connected run of ridges which side stays.
-    pub(super) fn new(positions: &[Point], interface: &Interface, pinches: &Pinches) -> Self {
-        let count = interface.nodes.len();
-        let buffers = || (Star::default(), Regions::default(), Shifts::default());
-        let at = |(star, regions, shifts): &mut (Star, Regions, Shifts), place: usize| {
-            star.load(interface, place);
-            // Only nodes with boundary faces of both sides can lie on a ridge between them.
-            if star.faces.iter().filter(|face| face.second.is_none()).count() < 2 {
-                return None;
-            }
-            regions.load(interface, star, pinches, place);
-            shifts.load(positions, interface, star, regions);
-            let others: Vec<usize> = shifts.ridges.iter().filter_map(|&end| interface.place(end)).collect();
-            let steepness = |refined| shifts.steepness(positions, interface, star, regions, refined);
-            (!others.is_empty()).then(|| AtNode {
-                place,
-                others,
-                coarse_must_stay: shifts.must_stay(regions, false),
-                refined_must_stay: shifts.must_stay(regions, true),
-                refined_is_steeper: steepness(true) - steepness(false),
-            })
-        };
-        let found: Vec<Option<AtNode>> = parallel::collect_with(count, buffers, at);
-        let mut runs = Sets::new(count);
-        for node in found.iter().flatten() {
-            for &other in &node.others {
-                runs.join(node.place as u32, other as u32, false);
-            }
-        }
-        let mut verdicts = vec![Verdict::default(); count];
-        for node in found.iter().flatten() {
-            let verdict = &mut verdicts[runs.root(node.place as u32).0 as usize];
-            verdict.coarse_must_stay |= node.coarse_must_stay;
-            verdict.refined_must_stay |= node.refined_must_stay;
-            verdict.refined_is_steeper += node.refined_is_steeper;
-        }
-        let mut staying = vec![None; count];
-        for node in found.iter().flatten() {
-            let verdict = verdicts[runs.root(node.place as u32).0 as usize];
-            staying[node.place] = Some(verdict.refined_stays());
-        }
-        Self { staying }
-    }
-
-    /// The side that stays at node `place` of the interface, if it is on such a ridge: true for the refined side.
-    pub(super) fn staying_side(&self, place: usize) -> Option<bool> {
-        self.staying[place]
-    }
 }

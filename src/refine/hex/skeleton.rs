@@ -6,101 +6,27 @@
 
 use super::blocks::BLOCK;
 use crate::mesh::NodeId;
-use crate::mesh::numbering::hex::{CORNERS, FACES};
-use crate::parallel;
-
-/// The neighbours of each corner along x, y and z.
-pub(super) const NEIGHBOURS: [[u8; 3]; 8] = {
-    let mut neighbours = [[0; 3]; 8];
-    let mut corner = 0;
-    while corner < 8 {
-        let mut other = 0;
-        while other < 8 {
-            let (mut differing, mut along, mut axis) = (0, 0, 0);
-            while axis < 3 {
-                if CORNERS[corner][axis] != CORNERS[other][axis] {
-                    differing += 1;
-                    along = axis;
-                }
-                axis += 1;
-            }
-            if differing == 1 {
-                neighbours[corner][along] = other as u8;
-            }
-            other += 1;
-        }
-        corner += 1;
-    }
-    neighbours
-};
-
-/// The three faces at each corner: the face's number, then the corners that follow around it.
-pub(super) const FACES_AT: [[(u8, [u8; 3]); 3]; 8] = {
-    let mut faces = [[(0, [0; 3]); 3]; 8];
-    let mut corner = 0;
-    while corner < 8 {
-        let (mut face, mut count) = (0, 0);
-        while face < 6 {
-            let mut k = 0;
-            while k < 4 {
-                if FACES[face][k] as usize == corner {
-                    let following =
-                        [FACES[face][(k + 1) % 4], FACES[face][(k + 2) % 4], FACES[face][(k + 3) % 4]];
-                    faces[corner][count] = (face as u8, following);
-                    count += 1;
-                }
-                k += 1;
-            }
-            face += 1;
-        }
-        corner += 1;
-    }
-    faces
-};
+use crate::mesh::numbering::hex::{FACES_AT, NEIGHBOURS};
+use crate::mesh::topology::Bins;
+use crate::{Cancelled, Monitor, parallel};
 
 /// The hexes at each node of a set.
-pub(super) struct Stars {
-    start: Vec<u32>,
-    /// Eight times the hex's place in the set, plus the node's corner there.
-    uses: Vec<u32>,
-}
+pub(super) struct Stars(Bins);
 
 impl Stars {
-    /// The stars of `node_count` nodes among `hexes`.
-    ///
-    /// # Panics
-    /// If there are 2^29 hexes or more.
-    pub(super) fn new(node_count: usize, hexes: impl Iterator<Item = [NodeId; 8]> + Clone) -> Self {
-        let mut start = vec![0u32; node_count + 1];
-        for hex in hexes.clone() {
-            for node in hex {
-                start[node.index() + 1] += 1;
-            }
-        }
-        for node in 0..node_count {
-            start[node + 1] += start[node];
-        }
-        let mut uses = vec![0u32; start[node_count] as usize];
-        assert!(uses.len() <= u32::MAX as usize, "more than 2^29 hexes");
-        let mut next = start.clone();
-        for (hex, nodes) in (0u32..).zip(hexes) {
-            for (corner, node) in (0u32..).zip(nodes) {
-                let place = &mut next[node.index()];
-                uses[*place as usize] = 8 * hex + corner;
-                *place += 1;
-            }
-        }
-        Self { start, uses }
+    /// The stars of `node_count` nodes among `count` hexes; `nodes` says which nodes the `k`-th has.
+    pub(super) fn new(node_count: usize, count: usize, nodes: impl Fn(usize) -> [NodeId; 8] + Clone) -> Self {
+        Self(Bins::of(node_count, (0..8 * count).map(move |place| nodes(place / 8)[place % 8].index())))
     }
 
     /// Where the uses of a node stand among those of all nodes.
     pub(super) fn range(&self, node: usize) -> std::ops::Range<usize> {
-        self.start[node] as usize..self.start[node + 1] as usize
+        self.0.range(node)
     }
 
     /// The hexes at a node, by their places in the set, and the node's corner in each.
     pub(super) fn at(&self, node: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.uses[self.range(node)].iter().map(|&entry| (entry as usize / 8, entry as usize % 8))
+        self.0.at(node).iter().map(|&place| (place as usize / 8, place as usize % 8))
     }
 }
 
@@ -112,28 +38,36 @@ pub(super) struct Skeleton {
 
 impl Skeleton {
     /// The skeleton of `hexes`, over `node_count` nodes.
-    pub(super) fn new<H>(node_count: usize, hexes: &[H], nodes: impl Fn(&H) -> &[NodeId; 8] + Sync) -> Self
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub(super) fn new<H>(
+        node_count: usize,
+        hexes: &[H],
+        nodes: impl Fn(&H) -> &[NodeId; 8] + Sync,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled>
     where
         H: Sync,
     {
         let nodes_of = &nodes;
-        let stars = Stars::new(node_count, hexes.iter().map(|hex| *nodes_of(hex)));
+        let stars = Stars::new(node_count, hexes.len(), |k| *nodes_of(&hexes[k]));
         let hexes_at = |node: usize| stars.at(node).map(|(hex, corner)| (nodes_of(&hexes[hex]), corner));
-        let edges = Lists::collect(node_count, |node, found| {
+        let edges = Lists::collect(node_count, monitor, |node, found| {
             for (nodes, corner) in hexes_at(node) {
                 for other in NEIGHBOURS[corner] {
                     found([nodes[usize::from(other)]]);
                 }
             }
-        });
-        let faces = Lists::collect(node_count, |node, found| {
+        })?;
+        let faces = Lists::collect(node_count, monitor, |node, found| {
             for (nodes, corner) in hexes_at(node) {
                 for (_, following) in FACES_AT[corner] {
                     found(one_way(following.map(|k| nodes[usize::from(k)])));
                 }
             }
-        });
-        Self { edges, faces }
+        })?;
+        Ok(Self { edges, faces })
     }
 
     /// Number of edges.
@@ -174,8 +108,12 @@ struct Lists<const K: usize> {
 impl<const K: usize> Lists<K> {
     /// `at(node, found)` calls `found` with the rest of each set that has `node`; those with a lesser node
     /// are passed over, and so is what was found before.
-    fn collect(node_count: usize, at: impl Fn(usize, &mut dyn FnMut([NodeId; K])) + Sync) -> Self {
-        let blocks: Vec<(Vec<u32>, Vec<[NodeId; K]>)> = parallel::blocks(node_count, BLOCK, |nodes| {
+    fn collect(
+        node_count: usize,
+        monitor: &dyn Monitor,
+        at: impl Fn(usize, &mut dyn FnMut([NodeId; K])) + Sync,
+    ) -> Result<Self, Cancelled> {
+        let blocks = parallel::try_blocks(node_count, BLOCK, monitor, |nodes| {
             let (mut counts, mut rest) = (Vec::with_capacity(nodes.len()), Vec::new());
             for node in nodes {
                 let first = rest.len();
@@ -187,7 +125,7 @@ impl<const K: usize> Lists<K> {
                 counts.push((rest.len() - first) as u32);
             }
             (counts, rest)
-        });
+        })?;
         let mut start = Vec::with_capacity(node_count + 1);
         let mut rest = Vec::with_capacity(blocks.iter().map(|(_, rest)| rest.len()).sum());
         let mut end = 0;
@@ -199,7 +137,7 @@ impl<const K: usize> Lists<K> {
             }
             rest.extend_from_slice(&more);
         }
-        Self { start, rest }
+        Ok(Self { start, rest })
     }
 
     fn find(&self, least: NodeId, rest: [NodeId; K]) -> usize {

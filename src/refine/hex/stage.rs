@@ -1,6 +1,8 @@
 //! One stage of the refinement of a hex mesh: from a conforming mesh and a set of its hexes to the conforming
 //! mesh in which these are divided.
 
+use std::borrow::Cow;
+
 use super::couple::{coupled_middles, middles_of_families};
 use super::divide::Divided;
 use super::interface::Interface;
@@ -9,10 +11,10 @@ use super::options::Method;
 use super::pillow::{LayerHex, Pillow, pillow};
 use super::quarters::{Quarter, place_quarters};
 use super::transition::{Transition, Transitions, assemble};
-use crate::Monitor;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::template::hex::{SPLIT, THIRDS, THIRTEEN, Template};
+use crate::{Cancelled, Monitor};
 
 /// No child of a family: the hex is an input hex or a transition hex.
 pub const NO_OCTANT: u8 = u8::MAX;
@@ -58,9 +60,9 @@ impl StageMesh {
 
 /// What a stage returns.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Stage {
+pub struct StageResult {
     /// The mesh: first the hexes that stay, in their order; then the children of the refined ones; then the
-    /// transition hexes. Nodes keep their ids; new ones follow.
+    /// transition hexes, those that a template made first. Nodes keep their ids; new ones follow.
     pub mesh: StageMesh,
     /// The hex of the mesh before that each hex came from. A transition hex came from the coarse hex whose place
     /// it takes part of.
@@ -125,23 +127,33 @@ pub fn stage(
     refined: &[bool],
     method: Method,
     monitor: &dyn Monitor,
-) -> Result<Stage, StageError> {
+) -> Result<StageResult, StageError> {
     assert_eq!(refined.len(), mesh.hexes.len(), "one entry a hex");
-    let interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined);
+    let interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?;
     match method {
         Method::One => {
             let mut positions = mesh.positions.clone();
             let transitions = layers(&mut positions, &interface, &mesh.octant, monitor)?;
-            Ok(assemble(mesh, (positions, &mesh.hexes), refined, &SPLIT, &transitions, monitor)?)
+            drop(interface);
+            Ok(assemble(
+                mesh,
+                (positions, Cow::Borrowed(&mesh.hexes)),
+                refined,
+                &SPLIT,
+                transitions,
+                monitor,
+            )?)
         }
         Method::Two => {
             let pillow = pillow(&mesh.positions, &interface, monitor)?;
             let divided = quarters(&pillow, &mesh.octant).map_err(StageError::NotCouplable)?;
+            drop(interface);
             pillowed_stage(mesh, refined, pillow, (&SPLIT, divided), monitor)
         }
         Method::Three => {
             let pillow = pillow(&mesh.positions, &interface, monitor)?;
             let divided = thirteens(&pillow);
+            drop(interface);
             pillowed_stage(mesh, refined, pillow, (&THIRDS, divided), monitor)
         }
         Method::Auto => {
@@ -150,8 +162,23 @@ pub fn stage(
                 Ok(divided) => (&SPLIT, divided),
                 Err(_) => (&THIRDS, thirteens(&pillow)),
             };
+            drop(interface);
             pillowed_stage(mesh, refined, pillow, templates, monitor)
         }
+    }
+}
+
+/// Can Method II join the set without more hexes being refined?
+pub(super) fn can_be_joined(
+    mesh: &StageMesh,
+    refined: &[bool],
+    monitor: &dyn Monitor,
+) -> Result<bool, Cancelled> {
+    let interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?;
+    match pillow(&mesh.positions, &interface, monitor) {
+        Ok(pillow) => Ok(quarters(&pillow, &mesh.octant).is_ok()),
+        Err(StageError::Cancelled(cancelled)) => Err(cancelled),
+        Err(_) => Ok(false),
     }
 }
 
@@ -184,7 +211,7 @@ fn pillowed_stage(
     pillow: Pillow,
     (split, divided): (&'static Template, Vec<Divided>),
     monitor: &dyn Monitor,
-) -> Result<Stage, StageError> {
+) -> Result<StageResult, StageError> {
     let Pillow { positions, hexes, layer, pinched_edges } = pillow;
     let of_coarse = |(hex, divided): (&LayerHex, Divided)| Transition { from: hex.face.coarse, divided };
     let transitions = Transitions {
@@ -194,5 +221,5 @@ fn pillowed_stage(
         copies: positions.len() - mesh.positions.len(),
         ..Transitions::default()
     };
-    Ok(assemble(mesh, (positions, &hexes), refined, split, &transitions, monitor)?)
+    Ok(assemble(mesh, (positions, Cow::Owned(hexes)), refined, split, transitions, monitor)?)
 }

@@ -1,7 +1,9 @@
 //! The end of a stage: divides the refined hexes and the transition hexes, and puts the next mesh together.
 
-use super::divide::{Divided, Division, divide};
-use super::stage::{NO_ELEMENT, NO_OCTANT, Stage, StageMesh, StageReport};
+use std::borrow::Cow;
+
+use super::divide::{Divided, divide};
+use super::stage::{NO_ELEMENT, NO_OCTANT, StageMesh, StageReport, StageResult};
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::parallel;
@@ -32,105 +34,73 @@ pub(super) struct Transitions {
 /// the set `refined` are divided by `split`.
 pub(super) fn assemble(
     before: &StageMesh,
-    (mut positions, hexes): (Vec<Point>, &[[NodeId; 8]]),
+    (mut positions, hexes): (Vec<Point>, Cow<'_, [[NodeId; 8]]>),
     refined: &[bool],
     split: &'static Template,
-    transitions: &Transitions,
+    transitions: Transitions,
     monitor: &dyn Monitor,
-) -> Result<Stage, Cancelled> {
-    let divided_ids = parallel::filter(hexes.len(), |hex| refined[hex]);
-    let kept = parallel::filter(hexes.len(), |hex| {
-        !refined[hex] && transitions.replaced.binary_search(&(hex as u32)).is_err()
-    });
-    let mut divided = parallel::collect(divided_ids.len(), |k| {
-        let hex = hexes[divided_ids[k] as usize];
-        Divided { hex, template: split, symmetry: 0 }
-    });
-    divided.extend(transitions.divided.iter().map(|transition| transition.divided));
-    let division = divide(&mut positions, &divided, monitor)?;
-    drop(divided);
-
+) -> Result<StageResult, Cancelled> {
+    let divided_ids = parallel::try_filter(hexes.len(), monitor, |hex| refined[hex])?;
+    let is_kept = |hex: usize| !refined[hex] && transitions.replaced.binary_search(&(hex as u32)).is_err();
+    let kept = parallel::try_filter(hexes.len(), monitor, is_kept)?;
+    let Transitions { whole, divided: layer, interface_faces, pinched_edges, copies, .. } = transitions;
+    let mut divided: Vec<Divided> = Vec::with_capacity(divided_ids.len() + layer.len());
+    let split_hex = |k: usize| Divided { hex: hexes[divided_ids[k] as usize], template: split, symmetry: 0 };
+    parallel::extend(&mut divided, divided_ids.len(), split_hex);
+    divided.extend(layer.iter().map(|transition| transition.divided));
+    let in_layer: usize = layer.iter().map(|transition| transition.divided.template.cell_count()).sum();
     let children = split.cell_count();
     let first_transition = kept.len() + children * divided_ids.len();
-    let mut parts = Parts { before, mesh: StageMesh::default(), from: Vec::new() };
-    parts.reserve(kept.len() + transitions.whole.len() + division.cells.len());
-    parts.keep(hexes, &kept);
-    parts.add_children(&divided_ids, children);
-    parts.add_transitions(&division, divided_ids.len(), transitions);
-    let Parts { mut mesh, from, .. } = parts;
-    let (split_cells, transition_cells) = division.cells.split_at(children * divided_ids.len());
-    parallel::extend_from_slice(&mut mesh.hexes, split_cells);
-    mesh.hexes.extend(transitions.whole.iter().map(|&(_, hex)| hex));
-    parallel::extend_from_slice(&mut mesh.hexes, transition_cells);
-    mesh.positions = positions;
+    let count = first_transition + in_layer + whole.len();
+
+    let mut cells = Vec::with_capacity(count);
+    parallel::extend(&mut cells, kept.len(), |k| hexes[kept[k] as usize]);
+    drop(hexes);
+    let cells_of = divide(&mut positions, &mut cells, &divided, monitor)?;
+    drop(divided);
+    cells.extend(whole.iter().map(|&(_, hex)| hex));
+
+    let mut from = Vec::with_capacity(count);
+    from.extend_from_slice(&kept);
+    parallel::extend(&mut from, children * divided_ids.len(), |child| divided_ids[child / children]);
+    for (k, transition) in (divided_ids.len()..).zip(&layer) {
+        from.extend(std::iter::repeat_n(transition.from, (cells_of[k + 1] - cells_of[k]) as usize));
+    }
+    from.extend(whole.iter().map(|&(hex, _)| hex));
+    monitor.proceed()?;
+
+    let is_child = |h: usize| (kept.len()..first_transition).contains(&h);
+    let is_kept = |h: usize| h < kept.len();
+    let child = |h: usize| h - kept.len();
+    let octant = |h: usize| match h {
+        h if is_kept(h) => before.octant[from[h] as usize],
+        // Only eight children are octants.
+        h if is_child(h) && children == 8 => (child(h) % 8) as u8,
+        _ => NO_OCTANT,
+    };
+    let element = |h: usize| match h {
+        h if is_kept(h) => before.element[from[h] as usize],
+        h if is_child(h) => child(h) as u32,
+        _ => NO_ELEMENT,
+    };
+    let level = |h: usize| before.level[from[h] as usize].saturating_add(is_child(h).into());
+    let mesh = StageMesh {
+        octant: parallel::try_collect(count, monitor, octant)?,
+        level: parallel::try_collect(count, monitor, level)?,
+        root: parallel::try_collect(count, monitor, |h| before.root[from[h] as usize])?,
+        element: parallel::try_collect(count, monitor, element)?,
+        positions,
+        hexes: cells,
+    };
     let report = StageReport {
         refined: divided_ids.len(),
-        interface_faces: transitions.interface_faces,
-        transition: mesh.hexes.len() - first_transition,
-        pinched_edges: transitions.pinched_edges,
-        copies: transitions.copies,
+        interface_faces,
+        transition: count - first_transition,
+        pinched_edges,
+        copies,
     };
     let layer_nodes = nodes_of(&mesh.hexes[first_transition..], mesh.positions.len());
-    Ok(Stage { mesh, from, first_transition, layer_nodes, report })
-}
-
-/// The next mesh in the making: all arrays but the nodes.
-struct Parts<'a> {
-    before: &'a StageMesh,
-    mesh: StageMesh,
-    from: Vec<u32>,
-}
-
-impl Parts<'_> {
-    fn reserve(&mut self, hexes: usize) {
-        self.mesh.hexes.reserve_exact(hexes);
-        self.mesh.octant.reserve_exact(hexes);
-        self.mesh.level.reserve_exact(hexes);
-        self.mesh.root.reserve_exact(hexes);
-        self.mesh.element.reserve_exact(hexes);
-        self.from.reserve_exact(hexes);
-    }
-
-    /// Takes hexes that stay.
-    fn keep(&mut self, hexes: &[[NodeId; 8]], kept: &[u32]) {
-        let Self { before, mesh, from } = self;
-        let (count, hex) = (kept.len(), |k: usize| kept[k] as usize);
-        parallel::extend(&mut mesh.hexes, count, |k| hexes[hex(k)]);
-        parallel::extend(&mut mesh.octant, count, |k| before.octant[hex(k)]);
-        parallel::extend(&mut mesh.level, count, |k| before.level[hex(k)]);
-        parallel::extend(&mut mesh.root, count, |k| before.root[hex(k)]);
-        parallel::extend(&mut mesh.element, count, |k| before.element[hex(k)]);
-        from.extend_from_slice(kept);
-    }
-
-    /// Describes the children of the refined hexes. Only eight of them are octants.
-    fn add_children(&mut self, parents: &[u32], children: usize) {
-        let Self { before, mesh, from } = self;
-        let count = children * parents.len();
-        let parent = |child: usize| parents[child / children] as usize;
-        let octant = |child: usize| if children == 8 { (child % 8) as u8 } else { NO_OCTANT };
-        parallel::extend(&mut mesh.octant, count, octant);
-        parallel::extend(&mut mesh.level, count, |child| before.level[parent(child)].saturating_add(1));
-        parallel::extend(&mut mesh.root, count, |child| before.root[parent(child)]);
-        parallel::extend(&mut mesh.element, count, |child| child as u32);
-        parallel::extend(from, count, |child| parents[child / children]);
-    }
-
-    /// Describes the transition hexes: those that stay, then those that the division made after `refined` hexes.
-    fn add_transitions(&mut self, division: &Division, refined: usize, transitions: &Transitions) {
-        let Self { before, mesh, from } = self;
-        let first = from.len();
-        from.extend(transitions.whole.iter().map(|&(hex, _)| hex));
-        for (k, transition) in transitions.divided.iter().enumerate() {
-            let cells = division.cells_of[refined + k + 1] - division.cells_of[refined + k];
-            from.extend(std::iter::repeat_n(transition.from, cells as usize));
-        }
-        let new = &from[first..];
-        mesh.octant.resize(from.len(), NO_OCTANT);
-        mesh.element.resize(from.len(), NO_ELEMENT);
-        mesh.level.extend(new.iter().map(|&hex| before.level[hex as usize]));
-        mesh.root.extend(new.iter().map(|&hex| before.root[hex as usize]));
-    }
+    Ok(StageResult { mesh, from, first_transition, layer_nodes, report })
 }
 
 /// The nodes of some hexes, ascending.

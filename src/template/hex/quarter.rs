@@ -23,8 +23,8 @@
 //!
 //! | height | 0.35 | 0.5 | 0.7 | 1 | 1.5 |
 //! |---|---|---|---|---|---|
-//! | these positions | 0.240 | 0.334 | 0.444 | 0.496 | 0.367 |
-//! | all at halves | 0.234 | 0.310 | 0.382 | 0.436 | 0.308 |
+//! | these positions | 0.241 | 0.334 | 0.444 | 0.496 | 0.367 |
+//! | side patterns centred at halves, c1 .25, c2 .7, p1 .375, p2 .75, q and w .8 | 0.234 | 0.310 | 0.382 | 0.436 | 0.308 |
 //!
 //! A block with flat sides cannot pass 0.5.
 

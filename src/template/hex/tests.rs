@@ -1,6 +1,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::*;
+use crate::mesh::quality::scaled_jacobian;
 
 const ALL: [(&Template, usize, usize); 7] = [
     (&SPLIT, 8, 27),
@@ -282,4 +283,41 @@ fn layer_templates_are_selected_by_their_refined_nodes() {
         *counts.entry(kind).or_insert(0) += 1;
     }
     assert_eq!(counts, BTreeMap::from([("stay", 1), ("face", 6), ("edge", 24), ("node", 16)]));
+}
+
+/// The least scaled Jacobian of a template's cells in a box of unit base.
+fn worst_at(template: &Template, height: f64) -> f64 {
+    let corners = CORNERS.map(|c| point(c.map(f64::from)) * Point::new(1.0, 1.0, height));
+    let cells = template.cells().iter().map(|cell| cell.map(|local| template.point(local, &corners)));
+    cells.map(|cell| scaled_jacobian(&cell)).fold(1.0, f64::min)
+}
+
+#[test]
+fn the_quarters_table_of_heights_is_true() {
+    let mut plain = QUARTER.at().to_vec();
+    let moved = [
+        [0.5, 0.0, 0.5],
+        [1.0, 0.0, 0.5],
+        [0.0, 0.5, 0.5],
+        [0.0, 1.0, 0.5],
+        [1.0, 1.0, 0.25],
+        [1.0, 1.0, 0.7],
+        [1.0, 0.5, 0.375],
+        [1.0, 0.5, 0.75],
+        [0.5, 1.0, 0.8],
+        [0.5, 0.5, 0.8],
+    ];
+    plain[13..].copy_from_slice(&moved);
+    let nodes: [[f64; 3]; 15] = plain[8..].try_into().expect("15 nodes");
+    let cells: [[LocalNode; 8]; 7] = QUARTER.cells().try_into().expect("7 cells");
+    let plain = Template::new(nodes, cells);
+    let heights = [0.35, 0.5, 0.7, 1.0, 1.5];
+    for (template, told) in
+        [(&QUARTER, [0.241, 0.334, 0.444, 0.496, 0.367]), (&plain, [0.234, 0.310, 0.382, 0.436, 0.308])]
+    {
+        for (height, told) in heights.into_iter().zip(told) {
+            let found = worst_at(template, height);
+            assert!((found - told).abs() < 5e-4, "{found} at {height}, told {told}");
+        }
+    }
 }

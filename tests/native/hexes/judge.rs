@@ -185,13 +185,3 @@ pub fn interface_faces(mesh: &StageMesh, refined: &[bool]) -> usize {
     }
     sides.values().filter(|sides| sides.contains(&true) && sides.contains(&false)).count()
 }
-
-/// A generator of repeatable numbers from 0 to 1.
-pub struct Numbers(pub u64);
-
-impl Numbers {
-    pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}

@@ -1,14 +1,18 @@
 //! Stages of conforming hex refinement.
 
+mod acceptance;
+mod accepted;
 mod counts;
 mod judge;
+mod levels;
+mod meshes;
 mod octants;
 mod pipeline;
 mod sets;
 mod worlds;
 
 use hexmill::Silent;
-use hexmill::refine::hex::{Method, Stage, StageError, StageMesh, stage};
+use hexmill::refine::hex::{Method, StageError, StageMesh, StageResult, stage};
 
 /// Every hex of the mesh refined once.
 fn refined_once(mesh: &StageMesh) -> StageMesh {
@@ -17,7 +21,7 @@ fn refined_once(mesh: &StageMesh) -> StageMesh {
 
 /// Refines the hexes that are wanted and what the method needs besides; whole families where there are some.
 /// Returns the set that was refined, too.
-fn refine(mesh: &StageMesh, wanted: Vec<bool>, method: Method) -> (Stage, Vec<bool>) {
+fn refine(mesh: &StageMesh, wanted: Vec<bool>, method: Method) -> (StageResult, Vec<bool>) {
     let mut refined = wanted;
     loop {
         let more = match stage(mesh, &refined, method, &Silent) {
@@ -39,7 +43,11 @@ fn refine(mesh: &StageMesh, wanted: Vec<bool>, method: Method) -> (Stage, Vec<bo
 }
 
 /// Refines by a rule on the centers of whole families (of hexes for 3-refinement).
-fn refine_where(mesh: &StageMesh, method: Method, wanted: impl Fn([f64; 3]) -> bool) -> (Stage, Vec<bool>) {
+fn refine_where(
+    mesh: &StageMesh,
+    method: Method,
+    wanted: impl Fn([f64; 3]) -> bool,
+) -> (StageResult, Vec<bool>) {
     let set = (0..mesh.hexes.len()).map(|h| wanted(judge::center(mesh, h).to_array())).collect();
     refine(mesh, set, method)
 }

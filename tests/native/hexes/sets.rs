@@ -2,7 +2,8 @@
 
 use hexmill::refine::hex::{Method, StageMesh};
 
-use super::judge::{Numbers, families, grid, interface_faces, judge_stage, worst};
+use super::judge::{families, grid, interface_faces, judge_stage, worst};
+use super::meshes::Numbers;
 use super::{refine, refine_where, refined_once};
 
 /// A random set of families.

@@ -27,9 +27,14 @@ pub(super) fn refine(
     if !quiet {
         eprint!("{}", plan_in_words(&plan));
     }
+    let forecast = plan.forecast().clone();
     let refined = plan.carry_out(progress).map_err(refused)?;
-    let work =
-        HexRefinementReport { added: refined.added, turned: refined.turned, levels: refined.stages.clone() };
+    let work = HexRefinementReport {
+        forecast,
+        added: refined.added,
+        turned: refined.turned,
+        levels: refined.stages.clone(),
+    };
     Ok(Refined {
         before,
         capped: refined.capped,
@@ -80,13 +85,19 @@ fn options_report(args: &RefineArgs, options: &HexOptions) -> OptionsReport {
 
 /// What will be done, told before it is.
 fn plan_in_words(plan: &HexPlan) -> String {
-    let Added { closure, .. } = plan.added();
+    let (Added { closure, conflicts, .. }, forecast) = (plan.added(), plan.forecast());
     let reasons = [
         (closure.families, "to complete families of eight"),
         (closure.balance, "to grade levels by one"),
         (closure.method, "for the method's templates"),
+        (conflicts, "where the interface touches itself"),
     ];
-    let mut lines = vec![format!("octree of {} hexes, before transitions", plan.octree_hexes())];
+    let mut lines = vec![format!(
+        "{} hexes to be made, with {} transition hexes, in about {:.0} MB",
+        forecast.hexes,
+        forecast.transition,
+        (forecast.bytes as f64 / 1e6).ceil()
+    )];
     let told = reasons.iter().filter(|(count, _)| *count > 0);
     lines.extend(told.map(|(count, why)| format!("  {count} elements are refined {why}")));
     lines.join("\n") + "\n"

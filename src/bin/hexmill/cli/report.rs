@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hexmill::io::Format;
-use hexmill::refine::hex::{Added, Method, StageReport};
+use hexmill::refine::hex::{Added, HexForecast, Method, StageReport};
 use serde::Serialize;
 
 use super::distance::Distances;
@@ -102,6 +102,7 @@ impl InputReport {
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct HexRefinementReport {
+    pub(crate) forecast: HexForecast,
     pub(crate) added: Added,
     pub(crate) turned: usize,
     pub(crate) levels: Vec<StageReport>,

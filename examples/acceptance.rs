@@ -1,0 +1,153 @@
+//! Refines the worlds that refinement of hexes is held to, in full, and prints what came of them.
+//!
+//! `cargo run --release --example acceptance` runs 100 random sets of one and of two levels in 8 x 8 x 8 cells, all 254
+//! sets of octants around a node, 40 sets on an I-beam, and the named worlds, with Methods I and II; it fails where a
+//! bound does not hold. `-- silence` tells how long a large refinement goes without asking whether to stop; `-- sets`, `-- octants`, `-- beam` or `-- named` run some of it; `-- write FOLDER` writes the named worlds as VTU files.
+
+#[path = "../tests/native/hexes/acceptance.rs"]
+mod acceptance;
+#[path = "../tests/native/hexes/meshes.rs"]
+mod meshes;
+#[path = "../benches/shell.rs"]
+mod shell;
+
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use acceptance::{Judged, World, judged, named, octants, random_on_beam, random_set};
+use hexmill::io::{Document, Format, write};
+use hexmill::refine::hex::{Method, refine_hexes};
+use hexmill::{Monitor, Stage};
+use rayon::prelude::*;
+
+const METHODS: [Method; 2] = [Method::One, Method::Two];
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let chosen = arguments.first().map(String::as_str);
+    let runs = |part: &str| chosen.is_none_or(|chosen| chosen == part);
+    let mut failed = 0;
+    if runs("sets") {
+        for levels in [1, 2] {
+            failed +=
+                sets(&format!("100 sets of {levels} levels"), 100, |seed| random_set(4, seed, 100, levels));
+        }
+    }
+    if runs("octants") {
+        failed += sets("254 sets of octants around a node", 254, |seed| octants(seed as u32 + 1));
+    }
+    if runs("beam") {
+        failed += sets("40 sets on the I-beam", 40, |seed| random_on_beam(seed, 40));
+    }
+    if runs("named") || chosen == Some("write") {
+        for world in named(3) {
+            for (method, least) in METHODS.into_iter().zip(world.least) {
+                let start = Instant::now();
+                let Judged { refined, worst, mean } = judged(&world, method);
+                let fails = if worst < least { "  FAILS" } else { "" };
+                println!(
+                    "{}, {method:?}: {} hexes, worst {worst:.3}, mean {mean:.3}, {:?}, {:.1} s{fails}",
+                    world.name,
+                    refined.mesh.hexes.len(),
+                    refined.added,
+                    start.elapsed().as_secs_f64()
+                );
+                failed += usize::from(worst < least);
+                if let (Some("write"), Some(folder)) = (chosen, arguments.get(1)) {
+                    let bytes = write(&Document::from(refined), Format::Vtu)?;
+                    let name = format!("{} {method:?}.vtu", world.name).replace([' ', ',', '\''], "-");
+                    std::fs::write(std::path::Path::new(folder).join(name), bytes)?;
+                }
+            }
+        }
+    }
+    if chosen == Some("silence") {
+        silence();
+    }
+    if failed > 0 { Err(format!("{failed} bounds do not hold").into()) } else { Ok(()) }
+}
+
+/// What came of one world.
+struct Found {
+    worst: f64,
+    least: f64,
+    /// Elements that were refined at levels from 1 on, and how many of them for the method, conflicts and repairs.
+    refined: usize,
+    added: [usize; 3],
+}
+
+/// Refines many worlds by both methods; returns how many are worse than their bound.
+fn sets(name: &str, count: u64, world: impl Fn(u64) -> World + Sync) -> usize {
+    let mut failed = 0;
+    for (k, method) in METHODS.into_iter().enumerate() {
+        let start = Instant::now();
+        let found: Vec<Found> =
+            (0..count).into_par_iter().map(|seed| find(&world(seed), method, k)).collect();
+        let worst = found.iter().map(|found| found.worst).fold(f64::INFINITY, f64::min);
+        let growth = |f: &Found| {
+            let more: usize = f.added.iter().sum();
+            if f.refined == 0 { 1.0 } else { f.refined as f64 / (f.refined - more) as f64 }
+        };
+        let growth = found.iter().map(growth).sum::<f64>() / found.len() as f64;
+        let [filled, conflicts, repairs] = [0, 1, 2].map(|k| found.iter().map(|f| f.added[k]).sum::<usize>());
+        println!(
+            "{name}, {method:?}: worst {worst:.3}, mean growth {growth:.3}; added: method {filled}, conflicts \
+             {conflicts}, repairs {repairs}; {:.1} s",
+            start.elapsed().as_secs_f64()
+        );
+        failed += found.iter().filter(|found| found.worst < found.least).count();
+    }
+    failed
+}
+
+fn find(world: &World, method: Method, k: usize) -> Found {
+    let Judged { refined, worst, .. } = judged(world, method);
+    let (least, added) = (world.least[k], refined.added);
+    if worst < least {
+        println!("{}, {method:?}: worst {worst:.3}  FAILS", world.name);
+    }
+    // Elements refined at a conflict have siblings, which were not asked for either.
+    let conflicts = 8 * added.conflicts;
+    let refined = refined.stages.iter().skip(1).map(|stage| stage.refined).sum();
+    Found { worst, least, refined, added: [added.closure.method, conflicts, 8 * added.repairs] }
+}
+
+/// How long the monitor was not asked, and after which stage that was.
+struct Listening(Mutex<(Instant, Duration, &'static str, &'static str)>);
+
+impl Monitor for Listening {
+    fn progress(&self, stage: Stage, _: f64) {
+        self.0.lock().expect("no panic").2 = stage.0;
+    }
+
+    fn cancelled(&self) -> bool {
+        let mut heard = self.0.lock().expect("no panic");
+        let (now, stage) = (Instant::now(), heard.2);
+        let silent = now - heard.0;
+        if silent > Duration::from_millis(100) {
+            println!("  {:.0} ms of silence after {stage}", silent.as_secs_f64() * 1e3);
+        }
+        if silent > heard.1 {
+            (heard.1, heard.3) = (silent, stage);
+        }
+        heard.0 = now;
+        false
+    }
+}
+
+/// Refines shells, at last one in many cubes.
+fn silence() {
+    for (name, n, level) in shell::SIZES.into_iter().chain([("many cubes", 60, 2)]) {
+        let input = shell::cubes(n);
+        for method in [Method::One, Method::Two, Method::Three] {
+            let level = if method == Method::Three { level / 2 + 1 } else { level };
+            let listening = Listening(Mutex::new((Instant::now(), Duration::ZERO, "nothing", "nothing")));
+            let options = shell::shell(n, level, method);
+            let hexes =
+                refine_hexes(&input, &options, &listening).expect("a shell in cubes").mesh.hexes.len();
+            let (_, longest, _, stage) = listening.0.into_inner().expect("no panic");
+            let longest = longest.as_secs_f64() * 1e3;
+            println!("{name}, {method:?}: {hexes} hexes, at most {longest:.0} ms of silence, after {stage}");
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! The input, checked and put right.
+
+use super::options::HexRefineError;
+use super::shift::RIDGE_DEGREES;
+use crate::mesh::check::{Defect, summary};
+use crate::mesh::quality::{Certainty, is_positive};
+use crate::mesh::topology::HexFaces;
+use crate::mesh::{FaceId, HexId, HexMesh, NodeId, QuadMesh, check_hexes_within, orient_hexes};
+use crate::monitor::batches;
+use crate::optimize::BoundarySurface;
+use crate::{Cancelled, Monitor, Stage, parallel};
+
+/// The stage that this file reports.
+const INPUT: Stage = Stage("input");
+
+/// The input with its hexes turned the right way, all of them positive inside, without unused nodes; and how many were
+/// turned.
+pub(super) fn oriented(input: &HexMesh, monitor: &dyn Monitor) -> Result<(HexMesh, usize), HexRefineError> {
+    if input.hexes.is_empty() {
+        return Err(HexRefineError::NoHexes);
+    }
+    monitor.checkpoint(INPUT, 0.0)?;
+    let mut mesh = input.clone();
+    let is_bad = |h: usize| mesh.hexes[h].iter().any(|n| n.index() >= mesh.positions.len());
+    let ids_are_good = !parallel::try_any(mesh.hexes.len(), monitor, is_bad)?;
+    let turned = if ids_are_good { orient_hexes(&mut mesh)? } else { 0 };
+    monitor.checkpoint(INPUT, 0.1)?;
+    let mut defects = check_hexes_within(&mesh, monitor)?;
+    defects.retain(|defect| !matches!(defect, Defect::UnusedNode { .. }));
+    if !defects.is_empty() {
+        let kinds = summary(&defects).iter().map(ToString::to_string).collect();
+        return Err(HexRefineError::InvalidInput(kinds));
+    }
+    monitor.checkpoint(INPUT, 0.8)?;
+    let is_doubtful = |h: usize| {
+        let corners = mesh.hexes[h].map(|n| mesh.positions[n.index()]);
+        is_positive(&corners) != Certainty::Positive
+    };
+    let doubtful = parallel::try_filter(mesh.hexes.len(), monitor, is_doubtful)?;
+    if !doubtful.is_empty() {
+        return Err(HexRefineError::NotPositive(doubtful.into_iter().map(HexId).collect()));
+    }
+    drop_unused_nodes(&mut mesh);
+    monitor.checkpoint(INPUT, 1.0)?;
+    Ok((mesh, turned))
+}
+
+fn drop_unused_nodes(mesh: &mut HexMesh) {
+    let mut is_used = vec![false; mesh.positions.len()];
+    mesh.hexes.iter().flatten().for_each(|n| is_used[n.index()] = true);
+    let mut number = Vec::with_capacity(is_used.len());
+    let mut count = 0;
+    for &used in &is_used {
+        number.push(NodeId(count));
+        count += u32::from(used);
+    }
+    let mut used = is_used.iter();
+    mesh.positions.retain(|_| *used.next().expect("a flag a node"));
+    parallel::for_each_mut(&mut mesh.hexes, |_, hex| *hex = hex.map(|n| number[n.index()]));
+}
+
+/// The input's boundary, on which boundary nodes are kept.
+pub(super) fn boundary_surface(input: &HexMesh, monitor: &dyn Monitor) -> Result<BoundarySurface, Cancelled> {
+    let faces = HexFaces::within(input.positions.len(), &input.hexes, monitor)?;
+    let mut quads = Vec::new();
+    for batch in batches(faces.nodes.len(), monitor) {
+        let boundary = batch?.map(FaceId::new).filter(|&f| faces.is_boundary(f));
+        quads.extend(boundary.map(|f| faces.nodes[f.index()]));
+    }
+    drop(faces);
+    let surface = QuadMesh { positions: input.positions.clone(), quads };
+    monitor.proceed()?;
+    Ok(BoundarySurface::new(&surface, RIDGE_DEGREES))
+}

@@ -1,0 +1,105 @@
+//! The part of a mesh that smoothing a stage's transition looks at: the hexes around the nodes that may move. All work
+//! and memory for smoothing follows from it, not from the mesh.
+
+use super::stage::StageResult;
+use crate::geometry::Point;
+use crate::mesh::numbering::hex::EDGES;
+use crate::mesh::topology::HexFaces;
+use crate::mesh::{HexId, NodeId, QuadMesh};
+use crate::optimize::{BoundarySurface, Constraints, OptimizeOptions, OptimizeReport, optimize};
+use crate::{Cancelled, Monitor, parallel};
+
+/// Some hexes of a mesh, over nodes of their own.
+pub(super) struct Local {
+    /// Coordinates of the nodes, in the mesh's order.
+    positions: Vec<Point>,
+    /// The nodes' numbers in the mesh, ascending.
+    nodes: Vec<NodeId>,
+    /// The hexes, in the mesh's order.
+    hexes: Vec<[NodeId; 8]>,
+    /// Their numbers in the mesh.
+    pub(super) hex_ids: Vec<HexId>,
+    /// For each node: may it move? All hexes of the mesh at such a node are here.
+    movable: Vec<bool>,
+}
+
+impl Local {
+    /// The hexes at the nodes of a stage's layer.
+    pub(super) fn around(stage: &StageResult, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let StageResult { mesh, layer_nodes, .. } = stage;
+        let mut moves = vec![false; mesh.positions.len()];
+        layer_nodes.iter().for_each(|n| moves[n.index()] = true);
+        let is_near = |h: usize| mesh.hexes[h].iter().any(|n| moves[n.index()]);
+        let hex_ids = parallel::try_filter(mesh.hexes.len(), monitor, is_near)?;
+        let hex_ids: Vec<HexId> = hex_ids.into_iter().map(HexId).collect();
+        let mut number = vec![NodeId(u32::MAX); mesh.positions.len()];
+        hex_ids.iter().flat_map(|h| mesh.hexes[h.index()]).for_each(|n| number[n.index()] = NodeId(0));
+        let mut nodes = Vec::new();
+        for (n, number) in number.iter_mut().enumerate().filter(|(_, number)| **number == NodeId(0)) {
+            *number = NodeId::new(nodes.len());
+            nodes.push(NodeId::new(n));
+        }
+        monitor.proceed()?;
+        Ok(Self {
+            positions: nodes.iter().map(|n| mesh.positions[n.index()]).collect(),
+            hexes: hex_ids.iter().map(|h| mesh.hexes[h.index()].map(|n| number[n.index()])).collect(),
+            movable: nodes.iter().map(|n| moves[n.index()]).collect(),
+            nodes,
+            hex_ids,
+        })
+    }
+
+    /// Where the nodes may go. Only what is said of movable ones counts: a boundary face with such a node is known for
+    /// one, since all hexes there are at hand.
+    pub(super) fn constraints<'a>(
+        &self,
+        surface: &'a BoundarySurface,
+        monitor: &dyn Monitor,
+    ) -> Result<Constraints<'a>, Cancelled> {
+        let faces = HexFaces::within(self.positions.len(), &self.hexes, monitor)?;
+        let has_movable = |nodes: &[NodeId; 4]| nodes.iter().any(|n| self.movable[n.index()]);
+        let boundary = faces.ids().filter(|&f| faces.is_boundary(f)).map(|f| faces.nodes[f.index()]);
+        let quads: Vec<[NodeId; 4]> = boundary.filter(has_movable).collect();
+        drop(faces);
+        let middle = |quad: &[NodeId; 4]| quad.iter().map(|n| self.positions[n.index()]).sum::<Point>() / 4.0;
+        let patch = |k: usize| surface.patch_at(middle(&quads[k])).expect("a hex mesh has a boundary");
+        let patches = parallel::try_collect(quads.len(), monitor, patch)?;
+        let boundary = QuadMesh { positions: self.positions.clone(), quads };
+        Ok(Constraints::of_boundary(&boundary, &patches, surface))
+    }
+
+    /// Untangles and smooths the hexes.
+    pub(super) fn optimize(
+        &mut self,
+        constraints: &Constraints,
+        monitor: &dyn Monitor,
+    ) -> Result<OptimizeReport, Cancelled> {
+        let Self { positions, hexes, movable, .. } = self;
+        optimize(positions, hexes, movable, constraints, &OptimizeOptions::default(), monitor)
+    }
+
+    /// The length of the shortest edge.
+    pub(super) fn shortest_edge(&self) -> f64 {
+        let length = |hex: &[NodeId; 8], [a, b]: [u8; 2]| {
+            let [a, b] = [a, b].map(|k| self.positions[hex[usize::from(k)].index()]);
+            a.distance_squared(b)
+        };
+        let of_hex =
+            |hex: &[NodeId; 8]| EDGES.map(|ends| length(hex, ends)).into_iter().fold(f64::INFINITY, f64::min);
+        self.hexes.iter().map(of_hex).fold(f64::INFINITY, f64::min).sqrt()
+    }
+
+    /// Moves the nodes back to where the mesh's are.
+    pub(super) fn put_back(&mut self, positions: &[Point]) {
+        for (node, point) in self.nodes.iter().zip(&mut self.positions) {
+            *point = positions[node.index()];
+        }
+    }
+
+    /// Moves the mesh's nodes to where these are.
+    pub(super) fn write_back(&self, positions: &mut [Point]) {
+        for (node, point) in self.nodes.iter().zip(&self.positions) {
+            positions[node.index()] = *point;
+        }
+    }
+}

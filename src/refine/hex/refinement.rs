@@ -1,0 +1,207 @@
+//! What is to be refined, decided level by level, by the options and by a caller's size function.
+
+use super::input::oriented;
+use super::options::{HexOptions, HexRefineError, Method, RefinedHexes, check_size, validate};
+use super::plan::HexPlan;
+use super::trees::Trees;
+use crate::geometry::Point;
+use crate::mesh::numbering::hex::EDGES;
+use crate::mesh::{HexMesh, NodeId};
+use crate::refine::Candidates;
+use crate::refine::targets::{exceeds, first_bad_target};
+use crate::sizing::{SizeField, SizeOptions, SizedElement};
+use crate::{Monitor, Stage, parallel};
+
+const REFINE: Stage = Stage("refine");
+
+/// Refinement a level at a time, for callers that decide between levels how fine each element is to be.
+///
+/// ```
+/// use hexmill::Silent;
+/// use hexmill::geometry::{Aabb, Point};
+/// use hexmill::mesh::{GridOptions, hex_grid};
+/// use hexmill::refine::hex::{HexOptions, HexRefinement};
+///
+/// let grid = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 64 };
+/// let cubes = hex_grid(Aabb { min: Point::ZERO, max: Point::splat(2.0) }, &grid)?;
+/// let options = HexOptions::default();
+/// let mut refinement = HexRefinement::new(&cubes, &options, &Silent)?;
+/// loop {
+///     let candidates = refinement.candidates();
+///     let targets: Vec<f64> = candidates.centers.iter().map(|p| 0.3 + p.length()).collect();
+///     if !refinement.advance(Some(&targets), &Silent)? {
+///         break;
+///     }
+/// }
+/// assert!(refinement.finish(&Silent)?.mesh.hexes.len() > 64);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct HexRefinement<'a> {
+    options: &'a HexOptions,
+    /// Oriented, without unused nodes.
+    input: HexMesh,
+    /// What the options want finer.
+    field: SizeField,
+    /// None as long as nothing is refined.
+    trees: Option<Trees>,
+    /// Elements of the deepest level that would have been refined further, were it not for `max_levels`.
+    capped: usize,
+    turned: usize,
+}
+
+impl<'a> HexRefinement<'a> {
+    /// Checks input and options and prepares the sizing.
+    ///
+    /// # Errors
+    /// If the input does not conform, an option is out of range, or the monitor stops it.
+    pub fn new(
+        input: &HexMesh,
+        options: &'a HexOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, HexRefineError> {
+        validate(options)?;
+        let (input, turned) = oriented(input, monitor)?;
+        let &HexOptions { edge_length, gradation, ref regions, .. } = options;
+        let sizes = SizeOptions { edge_length, curvature: None, gradation, regions };
+        let field = SizeField::of_hexes(&input, sizes)?;
+        Ok(Self { options, input, field, trees: None, capped: 0, turned })
+    }
+
+    /// The elements that the next [`advance`](Self::advance) decides on: the input's hexes at first, then the
+    /// elements that the last one made.
+    pub fn candidates(&self) -> Candidates {
+        let level = self.last_level();
+        let corners = |e: usize| level.corners(&level.elements[e]);
+        let count = level.elements.len();
+        Candidates {
+            centers: parallel::collect(count, |e| corners(e).iter().sum::<Point>() / 8.0),
+            longest: parallel::collect(count, |e| longest_edge(&corners(e))),
+        }
+    }
+
+    /// Refines the candidates that options or `targets` ask for; `targets` holds the greatest edge length allowed
+    /// for each candidate, or infinity. Returns false when there was nothing to refine, and the work can be finished.
+    ///
+    /// With Methods I and II, told by name, all hexes of the input are refined once if one of them is.
+    ///
+    /// # Errors
+    /// If there is not one target above 0 for each candidate, the monitor stops it, or the mesh would become too
+    /// large.
+    pub fn advance(
+        &mut self,
+        targets: Option<&[f64]>,
+        monitor: &dyn Monitor,
+    ) -> Result<bool, HexRefineError> {
+        let (options, level) = (self.options, self.last_level());
+        let count = level.elements.len();
+        if let Some(targets) = targets {
+            validate_targets(targets, count)?;
+        }
+        let number = level.number;
+        monitor.checkpoint(REFINE, f64::from(number) / f64::from(options.max_levels.max(number).max(1)))?;
+        let mut marked = level.wanted(&self.field, options, targets, monitor)?;
+        if marked.is_empty() {
+            return Ok(false);
+        }
+        if number >= options.max_levels {
+            self.capped = marked.len();
+            return Ok(false);
+        }
+        if number == 0 && matches!(options.method, Method::One | Method::Two) {
+            marked = (0..count as u32).collect();
+        }
+        let is_in_thirds = options.method == Method::Three;
+        let children = if is_in_thirds { 27 } else { 8 };
+        let before = self.trees.as_ref().map_or(count, Trees::leaf_count);
+        check_size(options, number + 1, before as u64 + (children - 1) * marked.len() as u64)?;
+        let mut trees = match self.trees.take() {
+            Some(trees) => trees,
+            None if is_in_thirds => Trees::thirds(&self.input),
+            None => Trees::octrees(&self.input, monitor)?,
+        };
+        trees.split(number.into(), &marked, monitor)?;
+        self.trees = Some(trees);
+        Ok(true)
+    }
+
+    /// Refines what the rules of conforming refinement ask for, besides; says what will be made.
+    ///
+    /// # Errors
+    /// If the mesh would become too large, or the monitor stops it.
+    pub fn plan(self, monitor: &dyn Monitor) -> Result<HexPlan<'a>, HexRefineError> {
+        let Self { options, input, trees, capped, turned, .. } = self;
+        HexPlan::closed(options, input, trees, (capped, turned), monitor)
+    }
+
+    /// Makes the mesh.
+    ///
+    /// # Errors
+    /// See [`HexRefineError`].
+    pub fn finish(self, monitor: &dyn Monitor) -> Result<RefinedHexes, HexRefineError> {
+        self.plan(monitor)?.carry_out(monitor)
+    }
+
+    /// The deepest level; none of its elements is refined.
+    fn last_level(&self) -> Level<'_> {
+        match &self.trees {
+            None => Level { elements: &self.input.hexes, positions: &self.input.positions, number: 0 },
+            Some(trees) => {
+                let number = trees.depth() - 1;
+                let elements = trees.level(number).elements;
+                Level { elements, positions: trees.positions(), number: number as u8 }
+            }
+        }
+    }
+}
+
+/// The elements of one level.
+struct Level<'a> {
+    elements: &'a [[NodeId; 8]],
+    positions: &'a [Point],
+    number: u8,
+}
+
+impl Level<'_> {
+    /// The elements that are wanted finer.
+    fn wanted(
+        &self,
+        field: &SizeField,
+        options: &HexOptions,
+        targets: Option<&[f64]>,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<u32>, HexRefineError> {
+        if options.levels.is_some_and(|levels| self.number < levels) {
+            return Ok((0..self.elements.len() as u32).collect());
+        }
+        if targets.is_none() && field.is_idle_from(self.number) {
+            return Ok(Vec::new());
+        }
+        let wants = |e: usize| {
+            let corners = self.corners(&self.elements[e]);
+            let longest = longest_edge(&corners);
+            exceeds(targets, e, longest)
+                || field.wants(&SizedElement { corners, longest, level: self.number, root: None })
+        };
+        Ok(parallel::try_filter(self.elements.len(), monitor, wants)?)
+    }
+
+    fn corners(&self, element: &[NodeId; 8]) -> [Point; 8] {
+        element.map(|n| self.positions[n.index()])
+    }
+}
+
+fn longest_edge(corners: &[Point; 8]) -> f64 {
+    let length = |[a, b]: [u8; 2]| corners[usize::from(a)].distance_squared(corners[usize::from(b)]);
+    EDGES.map(length).into_iter().fold(0.0, f64::max).sqrt()
+}
+
+/// Refuses targets that are not one length above 0 for each candidate.
+fn validate_targets(targets: &[f64], candidates: usize) -> Result<(), HexRefineError> {
+    if targets.len() != candidates {
+        return Err(HexRefineError::TargetCount { given: targets.len(), wanted: candidates });
+    }
+    match first_bad_target(targets) {
+        Some(candidate) => Err(HexRefineError::Target { candidate, value: targets[candidate] }),
+        None => Ok(()),
+    }
+}
