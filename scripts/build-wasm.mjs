@@ -1,7 +1,9 @@
 // Builds the WebAssembly modules into www/wasm/ (not under version control):
 //
-//     www/wasm/mesher/          mesher.js mesher.wasm                   the mesher on one thread
-//     www/wasm/mesher-threads/  mesher-threads.js mesher-threads.wasm   the mesher on a pool of workers
+//     www/wasm/mesher/          mesher.js mesher.wasm                   the mesher of surfaces on one thread
+//     www/wasm/mesher-threads/  mesher-threads.js mesher-threads.wasm   the same on a pool of workers
+//     www/wasm/hexes/           hexes.js hexes.wasm                     the refinement of hexes on one thread
+//     www/wasm/hexes-threads/   hexes-threads.js hexes-threads.wasm     the same on a pool of workers
 //     www/wasm/viewer/          viewer.js viewer.wasm                   the WebGL renderer
 //
 // Each .js has its .d.ts beside it and takes the module's address or bytes as an argument of its
@@ -54,15 +56,19 @@ const BINARYEN_FEATURES = [
   'simd',
 ].map((feature) => `--enable-${feature}`);
 
+const ON_ONE_THREAD = { optimize: ['-O3'] };
+
+const ON_A_POOL = {
+  optimize: ['-O3', '--enable-threads'],
+  cargo: ['-Z', 'build-std=std,panic_abort'],
+  env: { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: THREADS_FLAGS },
+};
+
 const FLAVOURS = [
-  { name: 'mesher', features: 'mesher', optimize: ['-O3'] },
-  {
-    name: 'mesher-threads',
-    features: 'threads',
-    optimize: ['-O3', '--enable-threads'],
-    cargo: ['-Z', 'build-std=std,panic_abort'],
-    env: { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: THREADS_FLAGS },
-  },
+  { name: 'mesher', features: 'quads', ...ON_ONE_THREAD },
+  { name: 'mesher-threads', features: 'quads,threads', ...ON_A_POOL },
+  { name: 'hexes', features: 'hexes', ...ON_ONE_THREAD },
+  { name: 'hexes-threads', features: 'hexes,threads', ...ON_A_POOL },
   { name: 'viewer', features: 'viewer' },
 ];
 

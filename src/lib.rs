@@ -40,7 +40,7 @@ pub mod scene;
 
 #[cfg(feature = "viewer")]
 pub mod render;
-#[cfg(any(feature = "mesher", feature = "viewer"))]
+#[cfg(any(feature = "bindings", feature = "viewer"))]
 mod web;
 
 pub use monitor::{Cancelled, Monitor, Silent, Stage};

@@ -3,6 +3,8 @@
 
 #[path = "fixtures/cases.rs"]
 mod cases;
+#[path = "fixtures/hex_cases.rs"]
+mod hex_cases;
 
 use hexmill::io::{self, Format};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -12,6 +14,13 @@ wasm_bindgen_test_configure!(run_in_dedicated_worker);
 #[wasm_bindgen_test]
 fn results_are_those_of_the_fixture() {
     for case in cases::cases() {
+        assert_eq!(case.run(), case.expected, "{}", case.name);
+    }
+}
+
+#[wasm_bindgen_test]
+fn hexes_are_those_of_the_fixture() {
+    for case in hex_cases::hex_cases() {
         assert_eq!(case.run(), case.expected, "{}", case.name);
     }
 }

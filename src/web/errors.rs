@@ -6,7 +6,9 @@ use serde::Serialize;
 use wasm_bindgen::JsValue;
 
 use crate::io::{ReadError, WriteError};
+use crate::mesh::GridError;
 use crate::refine::RefineError;
+use crate::refine::hex::HexRefineError;
 
 /// Which class of error JavaScript is to throw.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -89,6 +91,37 @@ impl From<RefineError> for Failure {
             | RefineError::TargetCount { .. }
             | RefineError::Target { .. } => Kind::Options,
             RefineError::TooManyQuads { .. } | RefineError::TooFewDigits { .. } => Kind::Limit,
+        };
+        Self::new(kind, error.code(), &error)
+    }
+}
+
+impl From<HexRefineError> for Failure {
+    fn from(error: HexRefineError) -> Self {
+        let kind = match error {
+            HexRefineError::Cancelled(_) => Kind::Cancelled,
+            HexRefineError::NoHexes
+            | HexRefineError::InvalidInput(_)
+            | HexRefineError::Inverted(_)
+            | HexRefineError::NotPositive(_)
+            | HexRefineError::Tangled(_) => Kind::Input,
+            HexRefineError::Option { .. }
+            | HexRefineError::Sizing(_)
+            | HexRefineError::TargetCount { .. }
+            | HexRefineError::Target { .. } => Kind::Options,
+            HexRefineError::TooManyHexes { .. } => Kind::Limit,
+            HexRefineError::NoTemplate(_) => Kind::Internal,
+        };
+        Self::new(kind, error.code(), &error)
+    }
+}
+
+impl From<GridError> for Failure {
+    fn from(error: GridError) -> Self {
+        let kind = match error {
+            GridError::Spacing(_) | GridError::Margin(_) => Kind::Options,
+            GridError::Empty => Kind::Input,
+            GridError::TooManyHexes { .. } | GridError::TooFewDigits { .. } => Kind::Limit,
         };
         Self::new(kind, error.code(), &error)
     }

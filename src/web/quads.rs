@@ -1,20 +1,38 @@
 //! Refinement in one call, and the quad mesh that it makes.
 
 use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
-use serde::Serialize;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
+use super::convert::{cells, check_parents, points, to_object};
 use super::errors::Failure;
+use super::file::format_named;
 use super::listener::Listener;
-use super::memory::Affordable;
+use super::memory::{Affordable, Cost, Limited};
 use super::pool::on_pool;
-use super::surface::{Surface, check_ids, format_named, points};
+use super::surface::Surface;
 use crate::geometry::Point;
 use crate::io::{self, Document};
 use crate::mesh::check::{check_quads, summary};
 use crate::mesh::quality::quad_quality;
 use crate::mesh::{FaceId, NodeId, QuadMesh, mesh_hash};
-use crate::refine::{QuadOptions, RefinedQuads, estimate_quads, refine_quads};
+use crate::refine::{Estimate, QuadOptions, RefineError, RefinedQuads, estimate_quads, refine_quads};
+
+/// What memory holds; `www/lib/options.ts` has the number of quads that this comes to.
+const COST: Cost =
+    Cost { bytes_per_cell: Estimate::BYTES_PER_QUAD, most_asked: QuadOptions::MOST_QUADS, cells: "quads" };
+
+impl Limited for QuadOptions {
+    type Error = RefineError;
+    const COST: &'static Cost = &COST;
+
+    fn max_cells(&mut self) -> &mut u64 {
+        &mut self.max_quads
+    }
+
+    fn too_many(error: &RefineError) -> Option<u64> {
+        if let RefineError::TooManyQuads { quads, .. } = error { Some(*quads) } else { None }
+    }
+}
 
 /// A refined mesh on its way to JavaScript.
 #[wasm_bindgen]
@@ -60,9 +78,7 @@ impl Quads {
     /// # Errors
     /// None in practice: numbers can always be converted.
     pub fn quality(&self) -> Result<JsValue, Failure> {
-        let report = on_pool(|| quad_quality(&self.refined.mesh).report());
-        let serializer = serde_wasm_bindgen::Serializer::new().serialize_maps_as_objects(true);
-        Ok(report.serialize(&serializer)?)
+        to_object(&on_pool(|| quad_quality(&self.refined.mesh).report()))
     }
 
     /// What is wrong with the mesh: one line for each kind of defect.
@@ -84,7 +100,7 @@ impl From<RefinedQuads> for Quads {
 /// What `refine_quads` refuses, meshes that memory would not hold, and options that are none.
 #[wasm_bindgen(js_name = refineQuads)]
 pub fn refine(surface: &Surface, options: JsValue) -> Result<Quads, Failure> {
-    let affordable = Affordable::read(options)?;
+    let affordable = Affordable::<QuadOptions>::read(options)?;
     on_pool(|| refine_quads(&surface.mesh, &affordable.options, &Listener))
         .map(Quads::from)
         .map_err(|error| affordable.failure(error))
@@ -148,19 +164,6 @@ pub fn quality(nodes: Vec<f64>, quads: Vec<u32>, metric: &str) -> Result<Float32
 /// The mesh of these arrays, in their own memory.
 fn quad_mesh(nodes: Vec<f64>, quads: Vec<u32>) -> Result<QuadMesh, Failure> {
     let positions = points(nodes)?;
-    check_ids(&quads, positions.len())?;
-    let quads = bytemuck::try_cast_vec::<u32, [NodeId; 4]>(quads).map_err(|(_, quads)| {
-        let message = format!("the array of quads has {} numbers, not four for each quad", quads.len());
-        Failure::input("array-length", &message)
-    })?;
+    let quads = cells(quads, positions.len(), "quads")?;
     Ok(QuadMesh { positions, quads })
-}
-
-fn check_parents(parent: &[u32], quads: usize, faces: usize) -> Result<(), Failure> {
-    if parent.len() == quads && parent.iter().all(|&p| (p as usize) < faces) {
-        return Ok(());
-    }
-    let message =
-        format!("parent has to name one of the {faces} faces of the surface for each of {quads} quads");
-    Err(Failure::input("array-parent", &message))
 }

@@ -6,20 +6,20 @@ use js_sys::Float64Array;
 use self_cell::self_cell;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
+use super::candidates::{centers, check_targets, over};
 use super::errors::Failure;
 use super::listener::Listener;
 use super::memory::Affordable;
 use super::pool::on_pool;
 use super::quads::Quads;
 use super::surface::Surface;
-use crate::geometry::Point;
 use crate::mesh::PolygonMesh;
-use crate::refine::{Candidates, QuadRefinement, RefineError};
+use crate::refine::{Candidates, QuadOptions, QuadRefinement, RefineError};
 
 /// What a refinement reads: JavaScript knows no lifetimes, so the session keeps it alive.
 struct Input {
     mesh: Arc<PolygonMesh>,
-    affordable: Affordable,
+    affordable: Affordable<QuadOptions>,
 }
 
 type Work<'a> = Option<QuadRefinement<'a>>;
@@ -61,7 +61,7 @@ impl Refinement {
 
     /// x, y, z of the centre of each element that may be refined next.
     pub fn centers(&self) -> Float64Array {
-        bytemuck::cast_slice::<Point, f64>(&self.candidates.centers).into()
+        centers(&self.candidates)
     }
 
     /// The longest edge of each element that may be refined next.
@@ -74,19 +74,7 @@ impl Refinement {
     /// # Errors
     /// If `targets` is not as long as the candidates, or what `QuadRefinement::advance` refuses.
     pub fn advance(&mut self, targets: &[f64]) -> Result<bool, Failure> {
-        let wanted = self.candidates.longest.len();
-        if targets.len() != wanted {
-            let message = format!(
-                "sizeFunction returned {} lengths for {wanted} elements; return one each",
-                targets.len()
-            );
-            return Err(Failure::options("size-function-length", &message));
-        }
-        if let Some(at) = targets.iter().position(|t| t.is_nan() || *t < 0.0) {
-            let message =
-                format!("sizeFunction returned {} for element {at}; return an edge length", targets[at]);
-            return Err(Failure::options("size-function-value", &message));
-        }
+        check_targets(targets, &self.candidates)?;
         let deeper = self.step(|work| work.advance(Some(targets), &Listener))?;
         let deeper = deeper.map_err(|error| self.failure(error))?;
         self.look()?;
@@ -122,8 +110,4 @@ impl Refinement {
         self.session
             .with_dependent_mut(|_, refinement| on_pool(|| refinement.as_mut().map(work)).ok_or_else(over))
     }
-}
-
-fn over() -> Failure {
-    Failure::internal("session-over", &"the refinement is over")
 }

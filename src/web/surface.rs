@@ -6,10 +6,11 @@ use js_sys::{Float64Array, Uint32Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
+use super::convert::{Extent, check_ids, points, to_object};
 use super::errors::Failure;
+use super::file;
 use super::pool::on_pool;
-use crate::geometry::{Aabb, Point};
-use crate::io;
+use crate::geometry::Point;
 use crate::mesh::check::{check_polygons, summary};
 use crate::mesh::topology::{SurfaceReport, surface_report};
 use crate::mesh::{Edges, MeshHash, NodeId, PolygonMesh, polygon_hash};
@@ -31,17 +32,10 @@ struct Info {
     quads: usize,
     /// Faces of five nodes and more.
     polygons: usize,
-    bounds: Bounds,
-    longest_edge: f64,
-    mean_edge: f64,
+    #[serde(flatten)]
+    extent: Extent,
     /// One line for each kind of defect.
     defects: Vec<String>,
-}
-
-#[derive(Serialize)]
-struct Bounds {
-    min: Point,
-    max: Point,
 }
 
 #[wasm_bindgen]
@@ -51,9 +45,7 @@ impl Surface {
     /// # Errors
     /// What the format's reader refuses, unknown formats, and files of hexahedra.
     pub fn read(bytes: &[u8], format: Option<String>) -> Result<Self, Failure> {
-        let format = format.map_or_else(|| Ok(io::detect(bytes)?), |name| format_named(&name))?;
-        let document = on_pool(|| io::read(bytes, format))?;
-        let mesh = document.into_surface().ok_or_else(|| {
+        let mesh = file::read(bytes, format)?.into_surface().ok_or_else(|| {
             let message = "the file holds hexahedra; give a surface of polygons";
             Failure::input("surface-expected", &message)
         })?;
@@ -88,10 +80,7 @@ impl Surface {
     /// # Errors
     /// None in practice: numbers and words can always be converted.
     pub fn info(&self) -> Result<JsValue, Failure> {
-        let info = on_pool(|| Info::of(&self.mesh));
-        // Flattened fields would become a Map.
-        let serializer = serde_wasm_bindgen::Serializer::new().serialize_maps_as_objects(true);
-        Ok(info.serialize(&serializer)?)
+        to_object(&on_pool(|| Info::of(&self.mesh)))
     }
 
     /// x, y, z of each node.
@@ -113,54 +102,15 @@ impl Surface {
 impl Info {
     fn of(mesh: &PolygonMesh) -> Self {
         let edges = Edges::of_polygons(mesh);
-        let length = |&[a, b]: &[NodeId; 2]| mesh.positions[a.index()].distance(mesh.positions[b.index()]);
-        let lengths: Vec<f64> = edges.ends.iter().map(length).collect();
         let faces_of = |wanted: fn(usize) -> bool| mesh.faces().filter(|f| wanted(f.len())).count();
-        let Aabb { min, max } = mesh.bounds();
         Self {
             report: surface_report(mesh, &edges),
             hash: polygon_hash(mesh),
             triangles: faces_of(|n| n == 3),
             quads: faces_of(|n| n == 4),
             polygons: faces_of(|n| n > 4),
-            bounds: Bounds { min, max },
-            longest_edge: lengths.iter().copied().fold(0.0, f64::max),
-            mean_edge: lengths.iter().sum::<f64>() / lengths.len().max(1) as f64,
+            extent: Extent::of(&mesh.positions, &edges.ends),
             defects: summary(&check_polygons(mesh)).iter().map(ToString::to_string).collect(),
-        }
-    }
-}
-
-/// The format of a name that JavaScript gave.
-pub(super) fn format_named(name: &str) -> Result<io::Format, Failure> {
-    io::Format::from_extension(name).ok_or_else(|| {
-        let known: Vec<_> = io::Format::ALL.iter().map(|f| f.name()).collect();
-        let message = format!("there is no format {name:?}; the formats are {}", known.join(", "));
-        Failure::options("format-unknown", &message)
-    })
-}
-
-/// The nodes of an array of x, y, z, in its own memory.
-pub(super) fn points(nodes: Vec<f64>) -> Result<Vec<Point>, Failure> {
-    if let Some(at) = nodes.iter().position(|x| !x.is_finite()) {
-        let message =
-            format!("coordinate {} of node {} is {}, not a finite number", at % 3, at / 3, nodes[at]);
-        return Err(Failure::input("array-not-finite", &message));
-    }
-    bytemuck::try_cast_vec(nodes).map_err(|(_, nodes)| {
-        let message = format!("the array of nodes has {} numbers, not three for each node", nodes.len());
-        Failure::input("array-length", &message)
-    })
-}
-
-/// Refuses ids of nodes that are not there.
-pub(super) fn check_ids(ids: &[u32], nodes: usize) -> Result<(), Failure> {
-    match ids.iter().position(|&id| id as usize >= nodes) {
-        None => Ok(()),
-        Some(at) => {
-            let message =
-                format!("corner {at} is node {}, but there are {nodes} nodes, counted from 0", ids[at]);
-            Err(Failure::input("array-index-out-of-range", &message))
         }
     }
 }

@@ -1,16 +1,16 @@
 import { describe, expect, it } from 'vitest';
 
 import { Engine } from '../../www/lib/engine.js';
-import type { SurfaceRecord } from '../../www/lib/engine.js';
+import type { InputRecord } from '../../www/lib/engine.js';
 import { CancelledError, HexmillError } from '../../www/lib/errors.js';
 import { fakePlatform, settle } from './fake-platform.js';
 import type { FakeWorker } from './fake-platform.js';
 
-const record: SurfaceRecord = { id: 7, source: { format: 'obj', content: 'v 0 0 0' } };
+const record: InputRecord = { id: 7, source: { want: 'surface', from: { format: 'obj', content: 'v 0 0 0' } } };
 
 async function startEngine({ pool = 0, reserve = false } = {}) {
   const { platform, workers } = fakePlatform();
-  const engine = new Engine({ platform, workerUrl: undefined, module: 'http://localhost/mesher.wasm', pool, reserve });
+  const engine = new Engine({ platform, workerUrl: undefined, name: 'mesher', module: 'http://localhost/mesher.wasm', pool, reserve });
   await engine.start();
   const worker = (index: number): FakeWorker => {
     const found = workers[index];
@@ -18,7 +18,7 @@ async function startEngine({ pool = 0, reserve = false } = {}) {
     return found;
   };
   const estimate = (signal?: AbortSignal) =>
-    engine.run(async (desk) => desk.call('estimate', { surface: await desk.surface(record), options: {} }), { signal });
+    engine.run(async (desk) => desk.call('estimate', { input: await desk.input(record), options: {} }), { signal });
   return { engine, workers, worker, estimate };
 }
 
@@ -106,10 +106,10 @@ describe('cancelling', () => {
     const abort = new AbortController();
     const stuck = estimate(abort.signal);
     await settle();
-    expect(worker(0).calls.map((call) => call.name)).toEqual(['load']);
+    expect(worker(0).calls.map((call) => call.name)).toEqual(['reload']);
     worker(0).answer({});
     await settle();
-    expect(worker(0).calls.map((call) => call.name)).toEqual(['load', 'estimate']);
+    expect(worker(0).calls.map((call) => call.name)).toEqual(['reload', 'estimate']);
     const start = performance.now();
     abort.abort();
     await expect(stuck).rejects.toBeInstanceOf(CancelledError);
@@ -119,7 +119,7 @@ describe('cancelling', () => {
     expect(performance.now() - start).toBeLessThan(200);
     await settle();
     expect(workers).toHaveLength(2);
-    expect(worker(1).calls.map((call) => call.name)).toEqual(['load']);
+    expect(worker(1).calls.map((call) => call.name)).toEqual(['reload']);
     worker(1).answer({});
     await settle();
     worker(1).answer({ quads: 4 });
@@ -234,7 +234,7 @@ describe('trouble', () => {
       worker.post = () => workers[0]?.die('no such script');
       return worker;
     };
-    const engine = new Engine({ platform, workerUrl: undefined, module: 'mesher.wasm', pool: 0 });
+    const engine = new Engine({ platform, workerUrl: undefined, name: 'mesher', module: 'mesher.wasm', pool: 0 });
     await expect(engine.start()).rejects.toMatchObject({ code: 'worker-failed' });
   });
 

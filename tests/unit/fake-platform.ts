@@ -46,9 +46,9 @@ export class FakeWorker implements WorkerHandle {
     return new Int32Array(this.control.memory.buffer)[CONTROL.cancelled] !== 0;
   }
 
-  /** The surfaces that it was told to free. */
+  /** The inputs that it was told to free. */
   get dropped(): number[] {
-    return this.received.flatMap((message) => (message.type === 'drop' ? [message.surface] : []));
+    return this.received.flatMap((message) => (message.type === 'drop' ? [message.input] : []));
   }
 
   /** The calls received so far. */

@@ -5,12 +5,13 @@ import { runInNewContext } from 'node:vm';
 import { describe, expect, it } from 'vitest';
 
 import { CancelledError } from '../../www/lib/errors.js';
-import { startMesher } from '../../www/lib/mesher.js';
-import type { Surface } from '../../www/lib/mesher.js';
+import { startMesher } from '../../www/lib/start.js';
+import type { Surface } from '../../www/lib/loaded.js';
 import { fakePlatform, settle } from './fake-platform.js';
 import type { FakeWorker } from './fake-platform.js';
 
 const ESTIMATE = { quads: 4, nodes: 9, bytes: 440, levels: 1, exact: true };
+const SURFACE = { kind: 'surface' };
 const MESH = { nodes: new Float64Array(12), quads: new Uint32Array(4), level: new Uint8Array(1), parent: new Uint32Array(1) };
 
 async function start(platformOptions: { sharesMemory?: boolean } = {}) {
@@ -24,7 +25,7 @@ async function start(platformOptions: { sharesMemory?: boolean } = {}) {
   const load = async (): Promise<Surface> => {
     const loading = mesher.load('v 0 0 0');
     await settle();
-    worker(0).answer({});
+    worker(0).answer(SURFACE);
     return loading;
   };
   return { mesher, workers, worker, load };
@@ -43,7 +44,7 @@ describe('an estimate', () => {
     expect(workers).toHaveLength(2);
     worker(1).answer({});
     await settle();
-    expect(names(worker(1))).toEqual(['load', 'estimate']);
+    expect(names(worker(1))).toEqual(['reload', 'estimate']);
     worker(1).answer(ESTIMATE);
     expect(await estimating).toEqual(ESTIMATE);
     expect(names(worker(0))).toEqual(['load', 'refine']);
@@ -65,7 +66,7 @@ describe('an estimate', () => {
     await new Promise((later) => setTimeout(later, 150));
     worker(1).answer('too late');
     await settle();
-    expect(names(worker(1))).toEqual(['load', 'estimate', 'estimate']);
+    expect(names(worker(1))).toEqual(['reload', 'estimate', 'estimate']);
     worker(1).answer(ESTIMATE);
     expect(await next).toEqual(ESTIMATE);
     expect(workers.map(({ terminated }) => terminated)).toEqual([false, false]);
@@ -148,7 +149,7 @@ describe('a surface is freed', () => {
     const { mesher, worker } = await start();
     const meshing = mesher.refineQuads('v 0 0 0');
     await settle();
-    worker(0).answer({});
+    worker(0).answer(SURFACE);
     await settle();
     worker(0).answer(MESH);
     const mesh = await meshing;
@@ -157,7 +158,7 @@ describe('a surface is freed', () => {
     expect(worker(0).dropped).toHaveLength(1);
     const exporting = mesh.export('obj');
     await settle();
-    expect(names(worker(0))).toEqual(['load', 'refine', 'load']);
+    expect(names(worker(0))).toEqual(['load', 'refine', 'reload']);
     worker(0).answer({});
     await settle();
     worker(0).answer(new Uint8Array(1));
@@ -174,5 +175,65 @@ describe('a surface is freed', () => {
       await settle();
     }
     expect(worker(0).dropped).toHaveLength(1);
+  });
+});
+
+describe('hexes', () => {
+  const BOX = { min: [0, 0, 0], max: [1, 1, 1] } as const;
+
+  it('have workers and a module of their own, started with the first', async () => {
+    const { mesher, worker, workers } = await start();
+    const making = mesher.makeGrid(BOX, { spacing: 1 });
+    await settle();
+    expect(workers).toHaveLength(2);
+    expect(worker(1).received[0]).toMatchObject({ type: 'start', name: 'hexes', module: 'http://localhost/hexes.wasm' });
+    worker(1).answer({ kind: 'hexes' });
+    const grid = await making;
+    const planning = mesher.planHexes(grid, { levels: 1 });
+    const refining = mesher.refineHexes(grid, { levels: 1 });
+    await settle();
+    worker(2).answer(null);
+    await settle();
+    worker(2).answer({ treeHexes: 8 });
+    expect(await planning).toEqual({ treeHexes: 8 });
+    worker(1).answer({ hexes: new Uint32Array(8) });
+    expect((await refining).hexes).toHaveLength(8);
+    grid.dispose();
+    expect([names(worker(1)), names(worker(2))]).toEqual([['load', 'refineHexes'], ['reload', 'planHexes']]);
+    expect([worker(1).dropped.length, worker(2).dropped.length]).toEqual([1, 1]);
+    expect(worker(0).calls).toHaveLength(0);
+    mesher.terminate();
+    await settle();
+    expect(workers.map(({ terminated }) => terminated)).toEqual([true, true, true]);
+    await expect(mesher.makeGrid(BOX, { spacing: 1 })).rejects.toMatchObject({ code: 'terminated' });
+  });
+
+  it('are asked for anew where their module could not be fetched', async () => {
+    const { platform, workers } = fakePlatform();
+    const mesher = await startMesher(platform, { threads: 1 });
+    const { spawn } = platform;
+    platform.spawn = (url, events) => {
+      const handle = spawn(url, events);
+      handle.post = () => events.onError('no network');
+      return handle;
+    };
+    await expect(mesher.makeGrid(BOX, { spacing: 1 })).rejects.toMatchObject({ name: 'InternalError', code: 'worker-failed' });
+    platform.spawn = spawn;
+    const making = mesher.makeGrid(BOX, { spacing: 1 });
+    await settle();
+    workers.at(-1)?.answer({ kind: 'hexes' });
+    await making;
+  });
+
+  it('are aborted at once while their workers start', async () => {
+    const { platform } = fakePlatform();
+    const mesher = await startMesher(platform, { threads: 1 });
+    const { spawn } = platform;
+    platform.spawn = (url, events) => Object.assign(spawn(url, events), { post: () => {} });
+    const abort = new AbortController();
+    const making = mesher.makeGrid(BOX, { spacing: 1, signal: abort.signal });
+    await settle();
+    abort.abort();
+    await expect(making).rejects.toBeInstanceOf(CancelledError);
   });
 });

@@ -2,7 +2,7 @@
 
 import { CancelledError, HexmillError } from './errors.js';
 import type { CallOptions, Progress } from './options.js';
-import type { CallName, Calls, SurfaceSource } from './protocol.js';
+import type { CallName, Calls, Source } from './protocol.js';
 import { Team } from './team.js';
 import type { TeamSettings } from './team.js';
 
@@ -17,19 +17,19 @@ const GRACE = {
 /** A task that takes longer has fresh workers started in reserve, in milliseconds. */
 const RESERVE_DELAY = 50;
 
-/** A surface as the calling thread keeps it. */
-export interface SurfaceRecord {
+/** A surface or hex mesh as the calling thread keeps it. */
+export interface InputRecord {
   readonly id: number;
-  readonly source: SurfaceSource;
+  readonly source: Source;
 }
 
 /** What a task does its work with. */
 export interface Desk {
   call<N extends CallName>(name: N, takes: Calls[N]['takes']): Promise<Calls[N]['gives']>;
-  /** The number of a surface, which is loaded anew if the workers were replaced. */
-  surface(record: SurfaceRecord): Promise<number>;
-  /** Loads a surface that the workers have not seen. */
-  load(record: SurfaceRecord): Promise<Calls['load']['gives']>;
+  /** The number of an input, which is loaded anew if the workers were replaced. */
+  input(record: InputRecord): Promise<number>;
+  /** Loads an input that the workers have not seen. */
+  load(record: InputRecord): Promise<Calls['load']['gives']>;
 }
 
 interface Job {
@@ -111,9 +111,9 @@ export class Engine {
     });
   }
 
-  /** Frees a surface. */
-  drop(surface: number): void {
-    this.#team.drop(surface);
+  /** Frees an input. */
+  drop(input: number): void {
+    this.#team.drop(input);
   }
 
   /** Ends the workers; everything pending fails with `error`, and everything that comes. */
@@ -193,31 +193,31 @@ export class Engine {
   }
 
   #desk(stop: AbortSignal, onProgress: (progress: Progress) => void): Desk {
-    const desk: Desk = {
-      call: async (name, takes) => {
+    const call: Desk['call'] = async (name, takes) => {
+      const team = await this.#readyTeam();
+      stop.throwIfAborted();
+      return team.call({ name, ...takes } as Parameters<Team['call']>[0], onProgress) as Promise<never>;
+    };
+    const load = async <N extends 'load' | 'reload'>(name: N, { id, source }: InputRecord) => {
+      const team = await this.#readyTeam();
+      stop.throwIfAborted();
+      // Before the answer: an input that nobody waits for any more is there to be dropped all the same.
+      team.inputs.add(id);
+      try {
+        return await call(name, { input: id, source });
+      } catch (error) {
+        team.inputs.delete(id);
+        throw error;
+      }
+    };
+    return {
+      call,
+      load: (record) => load('load', record),
+      input: async (record) => {
         const team = await this.#readyTeam();
-        stop.throwIfAborted();
-        const call = { name, ...takes } as Parameters<Team['call']>[0];
-        return team.call(call, onProgress) as Promise<never>;
-      },
-      load: async (record) => {
-        const team = await this.#readyTeam();
-        stop.throwIfAborted();
-        // Before the answer: a surface that nobody waits for any more is there to be dropped all the same.
-        team.surfaces.add(record.id);
-        try {
-          return await desk.call('load', { surface: record.id, source: record.source });
-        } catch (error) {
-          team.surfaces.delete(record.id);
-          throw error;
-        }
-      },
-      surface: async (record) => {
-        const team = await this.#readyTeam();
-        if (!team.surfaces.has(record.id)) await desk.load(record);
+        if (!team.inputs.has(record.id)) await load('reload', record);
         return record.id;
       },
     };
-    return desk;
   }
 }

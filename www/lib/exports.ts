@@ -1,11 +1,19 @@
 // What the package exports beside `createMesher`, which browsers and Node make differently.
 
 export { CancelledError, HexmillError, InputError, InternalError, LimitError, OptionsError } from './errors.js';
-export { MOST_THREADS } from './mesher.js';
-export type { Mesher, MesherOptions, QuadMesh, Surface } from './mesher.js';
+export { MOST_HEXES } from './hex-options.js';
+export type { GridOptions, HexOptions, Method, RefineHexesOptions } from './hex-options.js';
+export { HexMesh, Surface } from './loaded.js';
+export { QuadMesh, RefinedHexes } from './made.js';
+export type { Mesher } from './mesher.js';
 export { MOST_QUADS } from './options.js';
 export type {
+  Bounds,
   CallOptions,
+  FileInput,
+  HexArrays,
+  HexFormat,
+  HexInput,
   InputFormat,
   InputOptions,
   OutputFormat,
@@ -21,4 +29,19 @@ export type {
   Vector,
 } from './options.js';
 export type { WasmFile } from './platform.js';
-export type { Estimate, MeshQuality, Metric, QualitySummary, SurfaceInfo } from './results.js';
+export type {
+  AddedHexes,
+  Estimate,
+  HexInfo,
+  HexMetric,
+  HexPlan,
+  HexQuality,
+  HexStage,
+  HexStagePlan,
+  MeshQuality,
+  Metric,
+  QualitySummary,
+  SurfaceInfo,
+} from './results.js';
+export { MOST_THREADS } from './start.js';
+export type { MesherOptions } from './start.js';

@@ -1,17 +1,22 @@
-import { startMesher } from './mesher.js';
-import type { Mesher, MesherOptions } from './mesher.js';
-import type { Platform } from './platform.js';
+import type { Mesher } from './mesher.js';
+import type { Platform, WasmFile } from './platform.js';
+import { startMesher } from './start.js';
+import type { MesherOptions } from './start.js';
 
 export * from './exports.js';
 
-// Bundlers find the worker and the modules by these very expressions.
+// Bundlers find the modules and the worker by these very expressions.
+const MODULES: Readonly<Record<WasmFile, () => URL>> = {
+  'mesher.wasm': () => new URL('../wasm/mesher/mesher.wasm', import.meta.url),
+  'mesher-threads.wasm': () => new URL('../wasm/mesher-threads/mesher-threads.wasm', import.meta.url),
+  'hexes.wasm': () => new URL('../wasm/hexes/hexes.wasm', import.meta.url),
+  'hexes-threads.wasm': () => new URL('../wasm/hexes-threads/hexes-threads.wasm', import.meta.url),
+};
+
 const browser: Platform = {
   cores: () => navigator.hardwareConcurrency || 1,
   sharesMemory: () => globalThis.crossOriginIsolated === true && typeof SharedArrayBuffer === 'function',
-  wasmUrl: (file) =>
-    file === 'mesher.wasm'
-      ? new URL('../wasm/mesher/mesher.wasm', import.meta.url)
-      : new URL('../wasm/mesher-threads/mesher-threads.wasm', import.meta.url),
+  wasmUrl: (file) => MODULES[file](),
   resolve: (url) => new URL(url, globalThis.document?.baseURI ?? location.href).href,
   spawn: (url, events) => {
     const worker =

@@ -1,134 +1,106 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import { Engine } from './engine.js';
-import type { Desk, EngineSettings, SurfaceRecord } from './engine.js';
-import { HexmillError, InputError, InternalError, OptionsError } from './errors.js';
+import type { Crew } from './crew.js';
+import type { Desk, Engine, InputRecord } from './engine.js';
+import { CancelledError, HexmillError, InputError } from './errors.js';
+import { plainGrid, plainHexOptions } from './hex-options.js';
+import type { GridOptions, HexOptions, RefineHexesOptions } from './hex-options.js';
 import { refuseUnknown } from './known.js';
-import { inputFormat, plainOptions } from './options.js';
+import { HexMesh, Surface } from './loaded.js';
+import type { Held } from './loaded.js';
+import { QuadMesh, RefinedHexes } from './made.js';
+import { plainOptions } from './options.js';
 import type {
+  Bounds,
   CallOptions,
+  FileInput,
+  HexInput,
   InputOptions,
-  OutputFormat,
   QuadOptions,
   RefineOptions,
   SizeFunction,
   SurfaceInput,
 } from './options.js';
-import type { Platform, WasmFile } from './platform.js';
-import type { QuadArrays, QuadData, SurfaceData, SurfaceSource } from './protocol.js';
-import type { Estimate, MeshQuality, Metric, SurfaceInfo } from './results.js';
-
-/** How the mesher is to run. */
-export interface MesherOptions {
-  /**
-   * Threads of the pool, from 1 to {@link MOST_THREADS}; by default as many as the processor runs at once, at most 16,
-   * beyond which the work gains nothing. More than one needs shared memory, in browsers a cross-origin isolated page;
-   * elsewhere there is one thread.
-   */
-  threads?: number | undefined;
-  /**
-   * Where the WebAssembly module is, if it is not beside this package's files: the address of the file that is
-   * used (`mesher.wasm` for one thread, `mesher-threads.wasm` for more), or a function that tells it.
-   */
-  wasmUrl?: string | URL | ((file: WasmFile) => string | URL) | undefined;
-  /** Where the worker's script is, if it is not beside this package's files. */
-  workerUrl?: string | URL | undefined;
-}
-
-/** The most threads that can be asked for. */
-export const MOST_THREADS = 64;
-
-/** Threads that are taken by default, at most. */
-const USUAL_THREADS = 16;
-
-/** An aborted estimate that cannot be asked to stop may go on for this long, in milliseconds: most end sooner by themselves. */
-const ESTIMATE_GRACE = 1000;
-
-/** Every option of a mesher by name: the compiler holds this to be complete. */
-const MESHER_OPTIONS: Readonly<Record<keyof MesherOptions, true>> = { threads: true, wasmUrl: true, workerUrl: true };
-
-/** Starts the workers of a mesher. */
-export async function startMesher(platform: Platform, options: MesherOptions): Promise<Mesher> {
-  refuseUnknown(options, Object.keys(MESHER_OPTIONS), 'option of a mesher');
-  const threads = threadsFor(platform, options.threads);
-  try {
-    return await start(platform, options, threads);
-  } catch (error) {
-    // Some browsers refuse so much shared memory; who asked for threads is told.
-    const fixed = options.threads !== undefined || typeof options.wasmUrl === 'string' || options.wasmUrl instanceof URL;
-    if (threads === 1 || fixed) throw error;
-    return start(platform, options, 1);
-  }
-}
-
-async function start(platform: Platform, options: MesherOptions, threads: number): Promise<Mesher> {
-  const file: WasmFile = threads > 1 ? 'mesher-threads.wasm' : 'mesher.wasm';
-  const { wasmUrl, workerUrl } = options;
-  const url = (typeof wasmUrl === 'function' ? wasmUrl(file) : wasmUrl) ?? platform.wasmUrl(file);
-  const settings: EngineSettings = { platform, workerUrl, module: platform.resolve(url), pool: threads > 1 ? threads : 0 };
-  // Threads that share memory stop when they are asked to.
-  const engine = new Engine({ ...settings, reserve: settings.pool === 0 });
-  try {
-    await engine.start();
-  } catch (error) {
-    engine.terminate(new InternalError('not-started', 'The mesher could not be started.'));
-    throw error;
-  }
-  const estimator = (): Engine =>
-    new Engine({
-      ...settings,
-      module: engine.module ?? settings.module,
-      pool: Math.min(settings.pool, 1),
-      grace: ESTIMATE_GRACE,
-    });
-  return new Mesher(engine, threads, estimator);
-}
-
-function threadsFor(platform: Platform, wanted: number | undefined): number {
-  if (wanted !== undefined && !(Number.isInteger(wanted) && wanted >= 1 && wanted <= MOST_THREADS)) {
-    throw new OptionsError('threads-invalid', `threads is ${wanted}; give a whole number from 1 to ${MOST_THREADS}.`);
-  }
-  return platform.sharesMemory() ? (wanted ?? Math.min(platform.cores(), USUAL_THREADS)) : 1;
-}
+import type { Candidates, HexMeshData, Source, SurfaceData } from './protocol.js';
+import type { Estimate, HexPlan } from './results.js';
+import { hexSource, surfaceSource } from './source.js';
 
 /**
- * Meshes surfaces in workers. Calls are done one after the other, in the order in which they were made; estimates
- * have a worker of their own, started with the first, so that they neither wait for a mesh nor hold it up.
+ * Meshes surfaces and refines hexes in workers. Calls are done one after the other, in the order in which they were
+ * made. Surfaces and hexes have workers of their own, those of hexes started when they are first asked for; so have
+ * estimates and plans, which neither wait for a mesh nor hold it up.
  */
 export class Mesher {
   /** Threads that compute. */
   readonly threads: number;
-  readonly #engine: Engine;
-  readonly #newEstimator: () => Engine;
-  /** Estimates, and what does them once it has started. */
-  #estimator: { engine: Engine; ready: Promise<Engine> } | null = null;
-  /** Frees a surface in the workers when neither it nor a mesh made from it can be reached any more. */
-  readonly #unreachable: FinalizationRegistry<number>;
-  #surfaces = 0;
+  readonly #surfaces: Crew;
+  readonly #startHexes: () => Promise<Crew>;
+  #hexes: Promise<Crew> | null = null;
+  #end: HexmillError | null = null;
+  /** Frees an input in the workers when neither it nor a mesh made from it can be reached any more. */
+  readonly #unreachable = new FinalizationRegistry<() => void>((free) => free());
+  #inputs = 0;
 
   /** @internal */
-  constructor(engine: Engine, threads: number, newEstimator: () => Engine) {
-    this.#engine = engine;
-    this.#newEstimator = newEstimator;
+  constructor(surfaces: Crew, threads: number, startHexes: () => Promise<Crew>) {
+    this.#surfaces = surfaces;
+    this.#startHexes = startHexes;
     this.threads = threads;
-    this.#unreachable = new FinalizationRegistry((surface) => this.#drop(surface));
   }
 
   /**
    * Loads a surface of polygons, from the text or bytes of a file or from arrays, which are copied.
    *
-   * @throws {@link InputError} with the line at fault if it cannot be read.
+   * @throws {@link InputError} with the line at fault if it cannot be read, or if the file holds hexes (code
+   * `surface-expected`).
    */
   async load(input: SurfaceInput, options: InputOptions & CallOptions = {}): Promise<Surface> {
     refuseUnknown(options, LOAD_OPTIONS, 'option');
-    const record = await this.#newRecord(input, options);
+    const source = await surfaceSource(input, options);
+    return this.#load(this.#surfaces, source, options, (held, data) => new Surface(held, data as SurfaceData));
+  }
+
+  /**
+   * Loads a mesh of hexes, from the text or bytes of a file or from arrays, which are copied. Hexes that are numbered
+   * inside out are turned. What else keeps the mesh from being refined is told in `info.defects` and `info.quality`.
+   *
+   * @throws {@link InputError} with the line at fault if it cannot be read, or if the file holds a surface (code
+   * `hexes-expected`); {@link LimitError} if memory does not hold it.
+   */
+  async loadHexes(input: HexInput, options: InputOptions & CallOptions = {}): Promise<HexMesh> {
+    refuseUnknown(options, LOAD_OPTIONS, 'option');
+    return this.#loadHexes(await hexSource(input, options), options);
+  }
+
+  /**
+   * Loads what a file holds, a surface or hexes.
+   *
+   * @throws {@link InputError} with the line at fault if it cannot be read, {@link LimitError} if memory does not hold
+   * its hexes.
+   */
+  async loadFile(input: FileInput, options: InputOptions & CallOptions = {}): Promise<Surface | HexMesh> {
     try {
-      const data = await this.#engine.run((desk) => desk.load(record), options);
-      this.#unreachable.register(record, record.id);
-      return new Surface(this, record, data);
+      return await this.load(input, options);
     } catch (error) {
-      this.#drop(record.id);
+      if (error instanceof InputError && error.code === 'surface-expected') return this.loadHexes(input, options);
       throw error;
     }
+  }
+
+  /**
+   * Makes a grid of cubes around a mesh or a box, to be refined.
+   *
+   * @throws {@link OptionsError} if spacing or margin make no sense, {@link InputError} if there is nothing to make a
+   * grid around, {@link LimitError} if there would be more hexes than `maxHexes` or than memory holds, or the spacing
+   * is too small for the digits of the coordinates.
+   */
+  async makeGrid(
+    around: Surface | HexMesh | Bounds | SurfaceInput,
+    options: GridOptions & InputOptions & CallOptions,
+  ): Promise<HexMesh> {
+    const { signal, onProgress, format, name, ...gridOptions } = options;
+    const plain = plainGrid(gridOptions, LOAD_OPTIONS);
+    const { min, max } = await this.#boundsOf(around, { format, name, signal });
+    return this.#loadHexes({ want: 'hexes', from: { ...plain, min, max } }, { signal, onProgress });
   }
 
   /**
@@ -143,17 +115,23 @@ export class Mesher {
   ): Promise<Estimate> {
     const { signal, onProgress, format, name, ...quadOptions } = options;
     const plain = plainOptions(quadOptions, LOAD_OPTIONS);
-    const isLoaded = input instanceof Surface;
-    const record = isLoaded ? input.record(this) : await this.#newRecord(input, { format, name });
-    const engine = await this.#estimatingEngine();
-    try {
-      return await engine.run(
-        async (desk) => desk.call('estimate', { surface: await desk.surface(record), options: plain }),
-        { signal, onProgress },
-      );
-    } finally {
-      if (!isLoaded) engine.drop(record.id);
-    }
+    const source = input instanceof Surface ? input : await surfaceSource(input, { format, name });
+    const work = (desk: Desk, id: number) => desk.call('estimate', { input: id, options: plain });
+    return this.#foretell(this.#surfaces, source, work, { signal, onProgress });
+  }
+
+  /**
+   * Tells what refinement of hexes will do, before the work and beside it, as {@link Mesher.estimateQuads}: how many
+   * elements are refined, and which of them because the method asks for it.
+   *
+   * @throws {@link OptionsError}, {@link InputError}, {@link LimitError} as `refineHexes` does.
+   */
+  async planHexes(input: HexMesh | HexInput, options: HexOptions & InputOptions & CallOptions = {}): Promise<HexPlan> {
+    const { signal, onProgress, format, name, ...hexOptions } = options;
+    const plain = plainHexOptions(hexOptions, LOAD_OPTIONS);
+    const source = input instanceof HexMesh ? input : await hexSource(input, { format, name });
+    const work = (desk: Desk, id: number) => desk.call('planHexes', { input: id, options: plain });
+    return this.#foretell(await this.#hexCrew(signal), source, work, { signal, onProgress });
   }
 
   /**
@@ -167,28 +145,41 @@ export class Mesher {
     const { signal, onProgress, sizeFunction, format, name, ...quadOptions } = options;
     const plain = plainOptions(quadOptions, [...LOAD_OPTIONS, 'sizeFunction']);
     const own = input instanceof Surface ? null : await this.load(input, { format, name, signal });
-    const record = (own ?? (input as Surface)).record(this);
-    try {
-      const data = await this.#engine.run(
-        async (desk) => {
-          const surface = await desk.surface(record);
-          if (sizeFunction) return refineBySize(desk, surface, plain, sizeFunction);
-          return desk.call('refine', { surface, options: plain });
-        },
-        { signal, onProgress },
-      );
-      return new QuadMesh(this.#engine, record, data, own);
-    } catch (error) {
-      own?.dispose();
-      throw error;
-    }
+    const surface = own ?? (input as Surface);
+    const work = async (desk: Desk, id: number) => {
+      if (!sizeFunction) return desk.call('refine', { input: id, options: plain });
+      await chooseSizes(desk, await desk.call('begin', { input: id, options: plain }), sizeFunction);
+      return desk.call('finish', {});
+    };
+    return this.#refine(this.#surfaces, surface, own, work, QuadMesh, { signal, onProgress });
+  }
+
+  /**
+   * Refines a mesh of hexes to a conforming mesh of hexes, without hanging nodes and without inverted hexes.
+   *
+   * @throws {@link InputError} if the mesh cannot be refined, {@link OptionsError} if an option cannot be met,
+   * {@link LimitError} if there would be more hexes than `maxHexes` or than memory holds, {@link CancelledError} once
+   * `signal` is aborted.
+   */
+  async refineHexes(input: HexMesh | HexInput, options: RefineHexesOptions & InputOptions = {}): Promise<RefinedHexes> {
+    const { signal, onProgress, sizeFunction, format, name, ...hexOptions } = options;
+    const plain = plainHexOptions(hexOptions, [...LOAD_OPTIONS, 'sizeFunction']);
+    const own = input instanceof HexMesh ? null : await this.loadHexes(input, { format, name, signal });
+    const mesh = own ?? (input as HexMesh);
+    const work = async (desk: Desk, id: number) => {
+      if (!sizeFunction) return desk.call('refineHexes', { input: id, options: plain });
+      await chooseSizes(desk, await desk.call('beginHexes', { input: id, options: plain }), sizeFunction);
+      return desk.call('finishHexes', {});
+    };
+    return this.#refine(await this.#hexCrew(signal), mesh, own, work, RefinedHexes, { signal, onProgress });
   }
 
   /** Ends the workers. What is pending is rejected with a `HexmillError` of code `terminated`, as is what follows. */
   terminate(): void {
-    const error = new HexmillError('terminated', 'The mesher was terminated.');
-    this.#engine.terminate(error);
-    this.#estimator?.engine.terminate(error);
+    this.#end ??= new HexmillError('terminated', 'The mesher was terminated.');
+    this.#surfaces.terminate(this.#end);
+    const end = this.#end;
+    this.#hexes?.then((crew) => crew.terminate(end), () => {});
   }
 
   /** The same as {@link Mesher.terminate}, for `using`. */
@@ -196,183 +187,112 @@ export class Mesher {
     this.terminate();
   }
 
-  /** @internal */
-  free(record: SurfaceRecord): void {
-    this.#drop(record.id);
+  /** The workers of hexes, started by the first who asks. */
+  async #hexCrew(signal?: AbortSignal): Promise<Crew> {
+    if (this.#end) throw this.#end;
+    this.#hexes ??= this.#startHexes().catch((error) => {
+      this.#hexes = null;
+      throw error;
+    });
+    return unlessAborted(this.#hexes, signal);
   }
 
-  #drop(surface: number): void {
-    this.#engine.drop(surface);
-    this.#estimator?.engine.drop(surface);
+  async #loadHexes(source: Source, options: CallOptions): Promise<HexMesh> {
+    const crew = await this.#hexCrew(options.signal);
+    return this.#load(crew, source, options, (held, data) => new HexMesh(held, data as HexMeshData));
   }
 
-  async #newRecord(input: SurfaceInput, options: InputOptions): Promise<SurfaceRecord> {
-    return { id: ++this.#surfaces, source: await sourceOf(input, options) };
-  }
-
-  /** The worker of estimates; where no more workers can be had, the one of meshes. */
-  #estimatingEngine(): Promise<Engine> {
-    if (!this.#estimator && !this.#engine.ended) {
-      const engine = this.#newEstimator();
-      this.#estimator = { engine, ready: engine.start().then(() => engine, () => this.#engine) };
+  /** Loads an input; `handleOf` makes what the caller holds of it, from the data that its kind of source gives. */
+  async #load<L extends Surface | HexMesh>(
+    crew: Crew,
+    source: Source,
+    { signal, onProgress }: CallOptions,
+    handleOf: (held: Held, data: SurfaceData | HexMeshData) => L,
+  ): Promise<L> {
+    const record = { id: ++this.#inputs, source };
+    const free = freeing(crew, record.id);
+    try {
+      const data = await crew.engine.run((desk) => desk.load(record), { signal, onProgress });
+      this.#unreachable.register(record, free);
+      return handleOf({ mesher: this, record, free }, data);
+    } catch (error) {
+      free();
+      throw error;
     }
-    return this.#estimator?.ready ?? Promise.resolve(this.#engine);
+  }
+
+  /** Does `work` in the worker of estimates. */
+  async #foretell<T>(
+    crew: Crew,
+    input: Surface | HexMesh | Source,
+    work: (desk: Desk, input: number) => Promise<T>,
+    options: CallOptions,
+  ): Promise<T> {
+    const isLoaded = input instanceof Surface || input instanceof HexMesh;
+    const record = isLoaded ? input.record(this) : { id: ++this.#inputs, source: input };
+    const engine = await crew.estimator();
+    try {
+      return await engine.run(async (desk) => work(desk, await desk.input(record)), options);
+    } finally {
+      if (!isLoaded) engine.drop(record.id);
+    }
+  }
+
+  /** Does `work` on what was loaded; `own` is that too if it was loaded for this work alone. */
+  async #refine<D, M>(
+    { engine }: Crew,
+    loaded: Surface | HexMesh,
+    own: Surface | HexMesh | null,
+    work: (desk: Desk, input: number) => Promise<D>,
+    Result: new (origin: { engine: Engine; input: InputRecord; own: Surface | HexMesh | null }, data: D) => M,
+    options: CallOptions,
+  ): Promise<M> {
+    const input = loaded.record(this);
+    try {
+      const data = await engine.run(async (desk) => work(desk, await desk.input(input)), options);
+      return new Result({ engine, input, own }, data);
+    } catch (error) {
+      own?.dispose();
+      throw error;
+    }
+  }
+
+  async #boundsOf(around: Surface | HexMesh | Bounds | SurfaceInput, options: InputOptions & CallOptions): Promise<Bounds> {
+    if (around instanceof Surface || around instanceof HexMesh) {
+      // Refuses what was disposed of.
+      around.record(this);
+      return around.info.bounds;
+    }
+    if (typeof around === 'object' && around !== null && 'min' in around) return around;
+    const surface = await this.load(around, options);
+    surface.dispose();
+    return surface.info.bounds;
   }
 }
 
 /** What can be said of a call beside what the mesh is to be like. */
 const LOAD_OPTIONS: readonly (keyof (InputOptions & CallOptions))[] = ['format', 'name', 'signal', 'onProgress'];
 
-/** A surface that a mesher has loaded. It is freed when it is disposed of or no longer used. */
-export class Surface {
-  /** What is known of it. */
-  readonly info: SurfaceInfo;
-  /** x, y, z of each node. */
-  readonly nodes: Float64Array;
-  /** Where each face's corners start in `corners`, and the end of the last. */
-  readonly offsets: Uint32Array;
-  /** The nodes of all faces, face after face. */
-  readonly corners: Uint32Array;
-  readonly #mesher: Mesher;
-  readonly #record: SurfaceRecord;
-  #disposed = false;
-
-  /** @internal */
-  constructor(mesher: Mesher, record: SurfaceRecord, data: SurfaceData) {
-    this.#mesher = mesher;
-    this.#record = record;
-    this.info = data.info;
-    this.nodes = data.nodes;
-    this.offsets = data.offsets;
-    this.corners = data.corners;
-  }
-
-  /** Frees its memory in the worker. Meshes made from it stay good. */
-  dispose(): void {
-    if (this.#disposed) return;
-    this.#disposed = true;
-    this.#mesher.free(this.#record);
-  }
-
-  /** The same as {@link Surface.dispose}, for `using`. */
-  [Symbol.dispose](): void {
-    this.dispose();
-  }
-
-  /** @internal */
-  record(mesher: Mesher): SurfaceRecord {
-    if (this.#disposed) throw new InputError('surface-disposed', 'The surface was disposed of; load it again.');
-    if (mesher !== this.#mesher) {
-      throw new InputError('surface-of-another-mesher', 'The surface was loaded by another mesher; load it with this one.');
-    }
-    return this.#record;
-  }
+/** Frees an input. Made apart from its record, which would never be unreachable if this closure had it in scope. */
+function freeing(crew: Crew, input: number): () => void {
+  return () => crew.drop(input);
 }
 
-/** A conforming mesh of quads. */
-export class QuadMesh {
-  /** x, y, z of each node. */
-  readonly nodes: Float64Array;
-  /** The four nodes of each quad, in order around it. */
-  readonly quads: Uint32Array;
-  /** The refinement level of each quad. */
-  readonly level: Uint8Array;
-  /** The input face that each quad is part of. */
-  readonly parent: Uint32Array;
-  /** Elements that are larger than asked for, because `maxLevels` was reached. */
-  readonly capped: number;
-  /** A fingerprint of nodes and quads: the same for the same input and options on every platform. */
-  readonly hash: string;
-  /** How well shaped the quads are. */
-  readonly quality: MeshQuality;
-  /** What is wrong with the mesh, in words: empty for every mesh of a sound surface. */
-  readonly defects: readonly string[];
-  readonly #engine: Engine;
-  readonly #surface: SurfaceRecord;
-  /** The surface if it was loaded for this mesh alone. */
-  readonly #own: Surface | null;
-
-  /** @internal */
-  constructor(engine: Engine, surface: SurfaceRecord, data: QuadData, own: Surface | null) {
-    this.#engine = engine;
-    this.#surface = surface;
-    this.#own = own;
-    this.nodes = data.nodes;
-    this.quads = data.quads;
-    this.level = data.level;
-    this.parent = data.parent;
-    this.capped = data.capped;
-    this.hash = data.hash;
-    this.quality = data.quality;
-    this.defects = data.defects;
-  }
-
-  /** A measure of each quad, for colouring. */
-  qualityOf(metric: Metric, options: CallOptions = {}): Promise<Float32Array> {
-    return this.#engine.run((desk) => desk.call('quality', { mesh: this.#arrays(), metric }), options);
-  }
-
-  /**
-   * The mesh as a file, with the tags that the surface's file gave to its faces.
-   *
-   * @throws {@link OptionsError} if there is no such format.
-   */
-  export(format: OutputFormat, options: CallOptions = {}): Promise<Uint8Array> {
-    return this.#engine.run(async (desk) => {
-      const surface = await desk.surface(this.#surface);
-      return desk.call('export', { surface, mesh: this.#arrays(), format });
-    }, options);
-  }
-
-  /** Frees what the worker keeps for it: a surface that was loaded for it alone. The mesh itself stays good. */
-  dispose(): void {
-    this.#own?.dispose();
-  }
-
-  /** The same as {@link QuadMesh.dispose}, for `using`. */
-  [Symbol.dispose](): void {
-    this.dispose();
-  }
-
-  #arrays(): QuadArrays {
-    const { nodes, quads, level, parent } = this;
-    if (nodes.length === 0) {
-      throw new InputError('mesh-detached', 'The arrays of the mesh were transferred elsewhere; transfer copies.');
-    }
-    return { nodes, quads, level, parent };
-  }
+/** What `promise` gives, unless the signal is aborted before. */
+function unlessAborted<T>(promise: Promise<T>, signal: AbortSignal | undefined): Promise<T> {
+  if (!signal) return promise;
+  return new Promise((resolve, reject) => {
+    const abort = () => reject(new CancelledError());
+    if (signal.aborted) abort();
+    signal.addEventListener('abort', abort, { once: true });
+    promise.then(resolve, reject).finally(() => signal.removeEventListener('abort', abort));
+  });
 }
 
-/** Refines a level at a time, asking `sizeFunction` before each. */
-async function refineBySize(
-  desk: Desk,
-  surface: number,
-  options: QuadOptions,
-  sizeFunction: SizeFunction,
-): Promise<QuadData> {
-  let candidates = await desk.call('begin', { surface, options });
-  for (;;) {
+/** Refines a level at a time, asking `sizeFunction` before each, until it asks for nothing more. */
+async function chooseSizes(desk: Desk, first: Candidates, sizeFunction: SizeFunction): Promise<void> {
+  for (let candidates: Candidates | null = first; candidates; ) {
     const targets = await sizeFunction(candidates.centers, candidates.longest);
-    const deeper = await desk.call('advance', { targets: Float64Array.from(targets) });
-    if (!deeper) return desk.call('finish', {});
-    candidates = deeper;
+    candidates = await desk.call('advance', { targets: Float64Array.from(targets) });
   }
-}
-
-/** A copy of the input that outlives workers, and that the caller's later changes do not reach. */
-async function sourceOf(input: SurfaceInput, options: InputOptions): Promise<SurfaceSource> {
-  if (typeof input === 'string') return { format: inputFormat(options), content: input };
-  if (input instanceof Blob) {
-    const name = options.name ?? ('name' in input ? String(input.name) : undefined);
-    return { format: inputFormat({ ...options, name }), content: new Uint8Array(await input.arrayBuffer()) };
-  }
-  if (input instanceof ArrayBuffer) return { format: inputFormat(options), content: new Uint8Array(input.slice(0)) };
-  if (input instanceof Uint8Array) return { format: inputFormat(options), content: Uint8Array.from(input) };
-  if (input?.nodes instanceof Float64Array && input.corners instanceof Uint32Array) {
-    return { nodes: input.nodes.slice(), offsets: input.offsets?.slice(), corners: input.corners.slice() };
-  }
-  throw new InputError(
-    'input-unknown',
-    'The input is neither text nor bytes nor { nodes: Float64Array, corners: Uint32Array }.',
-  );
 }

@@ -1,11 +1,27 @@
 // The calls as a worker answers them, over the bindings of src/web/.
 
-import type * as single from '../wasm/mesher/mesher.js';
-import type { QuadOptions } from './options.js';
-import type { Call, CallName, Calls, Candidates, QuadArrays, QuadData, SurfaceData, SurfaceSource } from './protocol.js';
+import type * as hexes from '../wasm/hexes/hexes.js';
+import type * as mesher from '../wasm/mesher/mesher.js';
+import type {
+  Call,
+  CallName,
+  Calls,
+  Candidates,
+  FileData,
+  HexArraysMade,
+  HexData,
+  HexMeshData,
+  HexSource,
+  QuadArrays,
+  QuadData,
+  Source,
+  SurfaceData,
+  SurfaceSource,
+} from './protocol.js';
 
-/** The bindings that both modules of the mesher have. */
-export type Bindings = typeof single;
+/** The bindings of the module of surfaces and of that of hexes: a worker has one of them. */
+export type Bindings = Pick<typeof mesher, 'Surface' | 'Refinement' | 'refineQuads' | 'estimateQuads' | 'exportQuads' | 'quadQuality'> &
+  Pick<typeof hexes, 'HexMesh' | 'HexRefinement' | 'refineHexes' | 'planHexes' | 'exportHexes' | 'hexQuality'>;
 
 /** What a call gives and which of its buffers may move to the calling thread. */
 interface Answer<Result> {
@@ -15,11 +31,16 @@ interface Answer<Result> {
 
 type Handlers = { [N in CallName]: (takes: Calls[N]['takes']) => Answer<Calls[N]['gives']> };
 
-/** The surfaces of one worker and the refinement under way, if any. */
+/** Calls that go on with the refinement under way. */
+const GOES_ON: ReadonlySet<CallName> = new Set(['advance', 'finish', 'finishHexes']);
+
+/** The surfaces or hex meshes of one worker and the refinement under way, if any. */
 export class Meshing {
   readonly #bindings: Bindings;
-  readonly #surfaces = new Map<number, single.Surface>();
-  #refinement: single.Refinement | null = null;
+  readonly #surfaces = new Map<number, mesher.Surface>();
+  readonly #hexMeshes = new Map<number, hexes.HexMesh>();
+  #refinement: mesher.Refinement | null = null;
+  #hexRefinement: hexes.HexRefinement | null = null;
 
   constructor(bindings: Bindings) {
     this.#bindings = bindings;
@@ -27,110 +48,182 @@ export class Meshing {
 
   /** Answers a call; throws what the bindings throw. */
   answer(call: Call): Answer<unknown> {
-    if (call.name !== 'advance' && call.name !== 'finish') this.#endRefinement();
+    if (!GOES_ON.has(call.name)) this.#endRefinement();
     const handler = this.#handlers[call.name] as (takes: Call) => Answer<unknown>;
     return handler(call);
   }
 
-  /** Frees a surface. */
-  drop(surface: number): void {
-    this.#surfaces.get(surface)?.free();
-    this.#surfaces.delete(surface);
+  /** Frees an input. */
+  drop(input: number): void {
+    for (const inputs of [this.#surfaces, this.#hexMeshes]) {
+      inputs.get(input)?.free();
+      inputs.delete(input);
+    }
   }
 
   readonly #handlers: Handlers = {
-    load: ({ surface, source }) => {
-      this.drop(surface);
-      const loaded = this.#load(source);
-      this.#surfaces.set(surface, loaded);
-      const result: SurfaceData = {
-        info: loaded.info(),
-        nodes: loaded.nodes(),
-        offsets: loaded.offsets(),
-        corners: loaded.corners(),
-      };
-      return { result, transfer: [result.nodes.buffer, result.offsets.buffer, result.corners.buffer] };
+    load: ({ input, source }) => {
+      this.#load(input, source);
+      return source.want === 'surface' ? surfaceData(this.#surface(input)) : hexMeshData(this.#hexes(input));
     },
-    estimate: ({ surface, options }) => ({
-      result: this.#bindings.estimateQuads(this.#surface(surface), options),
+    reload: ({ input, source }) => {
+      this.#load(input, source);
+      return { result: null, transfer: [] };
+    },
+    estimate: ({ input, options }) => ({
+      result: this.#bindings.estimateQuads(this.#surface(input), options),
       transfer: [],
     }),
-    refine: ({ surface, options }) => this.#quads(this.#bindings.refineQuads(this.#surface(surface), options)),
-    begin: ({ surface, options }) => this.#candidates(this.#begin(surface, options)),
+    refine: ({ input, options }) => quadData(this.#bindings.refineQuads(this.#surface(input), options)),
+    begin: ({ input, options }) => {
+      this.#refinement = new this.#bindings.Refinement(this.#surface(input), options);
+      return candidates(this.#refinement);
+    },
     advance: ({ targets }) => {
-      const refinement = this.#underWay();
-      return refinement.advance(targets) ? this.#candidates(refinement) : { result: null, transfer: [] };
+      const refinement = underWay(this.#refinement ?? this.#hexRefinement);
+      return refinement.advance(targets) ? candidates(refinement) : { result: null, transfer: [] };
     },
     finish: () => {
-      const refinement = this.#underWay();
+      const refinement = underWay(this.#refinement);
       this.#refinement = null;
-      return this.#quads(refinement.finish());
+      return quadData(refinement.finish());
     },
-    export: ({ surface, mesh, format }) => {
+    export: ({ input, mesh, format }) => {
       const { nodes, quads, level, parent } = mesh;
-      const result = this.#bindings.exportQuads(this.#surface(surface), nodes, quads, level, parent, format);
+      const result = this.#bindings.exportQuads(this.#surface(input), nodes, quads, level, parent, format);
       return { result, transfer: [result.buffer] };
     },
     quality: ({ mesh, metric }) => {
       const result = this.#bindings.quadQuality(mesh.nodes, mesh.quads, metric);
       return { result, transfer: [result.buffer] };
     },
+    planHexes: ({ input, options }) => ({
+      result: this.#bindings.planHexes(this.#hexes(input), options),
+      transfer: [],
+    }),
+    beginHexes: ({ input, options }) => {
+      this.#hexRefinement = new this.#bindings.HexRefinement(this.#hexes(input), options);
+      return candidates(this.#hexRefinement);
+    },
+    finishHexes: () => {
+      const refinement = underWay(this.#hexRefinement);
+      this.#hexRefinement = null;
+      return hexData(refinement.finish());
+    },
+    refineHexes: ({ input, options }) => hexData(this.#bindings.refineHexes(this.#hexes(input), options)),
+    exportHexes: ({ input, mesh, format }) => {
+      const { nodes, hexes, level, parent } = mesh;
+      const result = this.#bindings.exportHexes(this.#hexes(input), nodes, hexes, level, parent, format);
+      return { result, transfer: [result.buffer] };
+    },
+    hexQuality: ({ mesh, metric }) => {
+      const result = this.#bindings.hexQuality(mesh.nodes, mesh.hexes, metric);
+      return { result, transfer: [result.buffer] };
+    },
   };
 
-  #load(source: SurfaceSource): single.Surface {
-    const { Surface } = this.#bindings;
-    if ('content' in source) {
-      const { content, format } = source;
-      const bytes = typeof content === 'string' ? new TextEncoder().encode(content) : content;
-      return Surface.read(bytes, format);
-    }
-    return Surface.fromArrays(source.nodes, source.offsets, source.corners);
+  /** Loads an input in the place of the one of that number, if there is one. */
+  #load(input: number, source: Source): void {
+    this.drop(input);
+    if (source.want === 'surface') this.#surfaces.set(input, this.#loadedSurface(source.from));
+    else this.#hexMeshes.set(input, this.#loadedHexes(source.from));
   }
 
-  #surface(surface: number): single.Surface {
-    const loaded = this.#surfaces.get(surface);
-    if (!loaded) throw new Error(`surface ${surface} is not loaded`);
+  #loadedSurface(from: SurfaceSource): mesher.Surface {
+    const { Surface } = this.#bindings;
+    if ('content' in from) return Surface.read(bytesOf(from), from.format);
+    return Surface.fromArrays(from.nodes, from.offsets, from.corners);
+  }
+
+  #loadedHexes(from: HexSource): hexes.HexMesh {
+    const { HexMesh } = this.#bindings;
+    if ('content' in from) return HexMesh.read(bytesOf(from), from.format);
+    return 'hexes' in from ? HexMesh.fromArrays(from.nodes, from.hexes) : HexMesh.grid(from);
+  }
+
+  #surface(input: number): mesher.Surface {
+    const loaded = this.#surfaces.get(input);
+    if (!loaded) throw new Error(`surface ${input} is not loaded`);
     return loaded;
   }
 
-  #begin(surface: number, options: QuadOptions): single.Refinement {
-    this.#refinement = new this.#bindings.Refinement(this.#surface(surface), options);
-    return this.#refinement;
-  }
-
-  #underWay(): single.Refinement {
-    if (!this.#refinement) throw new Error('no refinement is under way');
-    return this.#refinement;
+  #hexes(input: number): hexes.HexMesh {
+    const loaded = this.#hexMeshes.get(input);
+    if (!loaded) throw new Error(`hex mesh ${input} is not loaded`);
+    return loaded;
   }
 
   #endRefinement(): void {
     this.#refinement?.free();
-    this.#refinement = null;
+    this.#hexRefinement?.free();
+    this.#refinement = this.#hexRefinement = null;
   }
+}
 
-  #candidates(refinement: single.Refinement): Answer<Candidates> {
-    const result = { centers: refinement.centers(), longest: refinement.longest() };
-    return { result, transfer: [result.centers.buffer, result.longest.buffer] };
-  }
+function bytesOf({ content }: FileData): Uint8Array {
+  return typeof content === 'string' ? new TextEncoder().encode(content) : content;
+}
 
-  #quads(refined: single.Quads): Answer<QuadData> {
-    try {
-      const arrays: QuadArrays = {
-        nodes: refined.nodes(),
-        quads: refined.quads(),
-        level: refined.level(),
-        parent: refined.parent(),
-      };
-      const result: QuadData = {
-        ...arrays,
-        capped: refined.capped(),
-        hash: refined.hash(),
-        quality: refined.quality(),
-        defects: refined.defects(),
-      };
-      return { result, transfer: Object.values(arrays).map((array: ArrayBufferView) => array.buffer) };
-    } finally {
-      refined.free();
-    }
+function surfaceData(surface: mesher.Surface): Answer<SurfaceData> {
+  const arrays = { nodes: surface.nodes(), offsets: surface.offsets(), corners: surface.corners() };
+  return { result: { kind: 'surface', info: surface.info(), ...arrays }, transfer: buffersOf(arrays) };
+}
+
+function hexMeshData(mesh: hexes.HexMesh): Answer<HexMeshData> {
+  const arrays = { nodes: mesh.nodes(), hexes: mesh.hexes() };
+  return { result: { kind: 'hexes', info: mesh.info(), ...arrays }, transfer: buffersOf(arrays) };
+}
+
+function underWay<R>(refinement: R | null): R {
+  if (!refinement) throw new Error('no refinement is under way');
+  return refinement;
+}
+
+function candidates(refinement: mesher.Refinement | hexes.HexRefinement): Answer<Candidates> {
+  const result: Candidates = { centers: refinement.centers(), longest: refinement.longest() };
+  return { result, transfer: buffersOf({ ...result }) };
+}
+
+function quadData(refined: mesher.Quads): Answer<QuadData> {
+  try {
+    const { nodes, level, parent } = arraysOf(refined);
+    const arrays: QuadArrays = { nodes, quads: refined.quads(), level, parent };
+    return { result: { ...arrays, ...factsOf(refined) }, transfer: buffersOf({ ...arrays }) };
+  } finally {
+    refined.free();
   }
+}
+
+function hexData(refined: hexes.Hexes): Answer<HexData> {
+  try {
+    const { nodes, level, parent } = arraysOf(refined);
+    const arrays: HexArraysMade = { nodes, hexes: refined.hexes(), level, parent };
+    const result: HexData = {
+      ...arrays,
+      ...factsOf(refined),
+      added: refined.added(),
+      stages: refined.stages(),
+      turned: refined.turned(),
+    };
+    return { result, transfer: buffersOf({ ...arrays }) };
+  } finally {
+    refined.free();
+  }
+}
+
+function arraysOf(refined: mesher.Quads | hexes.Hexes) {
+  return { nodes: refined.nodes(), level: refined.level(), parent: refined.parent() };
+}
+
+function factsOf(refined: mesher.Quads | hexes.Hexes) {
+  return {
+    capped: refined.capped(),
+    hash: refined.hash(),
+    quality: refined.quality(),
+    defects: refined.defects(),
+  };
+}
+
+function buffersOf(arrays: Record<string, ArrayBufferView>): ArrayBufferLike[] {
+  return Object.values(arrays).map((array) => array.buffer);
 }

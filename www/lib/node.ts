@@ -2,19 +2,24 @@ import { availableParallelism } from 'node:os';
 import { pathToFileURL } from 'node:url';
 import { Worker } from 'node:worker_threads';
 
-import { startMesher } from './mesher.js';
-import type { Mesher, MesherOptions } from './mesher.js';
-import type { Platform } from './platform.js';
+import type { Mesher } from './mesher.js';
+import type { Platform, WasmFile } from './platform.js';
+import { startMesher } from './start.js';
+import type { MesherOptions } from './start.js';
 
 export * from './exports.js';
+
+const MODULES: Readonly<Record<WasmFile, () => URL>> = {
+  'mesher.wasm': () => new URL('../wasm/mesher/mesher.wasm', import.meta.url),
+  'mesher-threads.wasm': () => new URL('../wasm/mesher-threads/mesher-threads.wasm', import.meta.url),
+  'hexes.wasm': () => new URL('../wasm/hexes/hexes.wasm', import.meta.url),
+  'hexes-threads.wasm': () => new URL('../wasm/hexes-threads/hexes-threads.wasm', import.meta.url),
+};
 
 const node: Platform = {
   cores: () => availableParallelism(),
   sharesMemory: () => true,
-  wasmUrl: (file) =>
-    file === 'mesher.wasm'
-      ? new URL('../wasm/mesher/mesher.wasm', import.meta.url)
-      : new URL('../wasm/mesher-threads/mesher-threads.wasm', import.meta.url),
+  wasmUrl: (file) => MODULES[file](),
   resolve: (url) => new URL(url, pathToFileURL('./')).href,
   spawn: (url, events) => {
     const worker = new Worker(url ?? new URL('./node-worker.js', import.meta.url), { name: 'hexmill' });

@@ -96,6 +96,9 @@ export type InputFormat = 'obj' | 'vtu' | 'vtk' | 'msh' | 'inp' | 'medit';
 /** Formats that are written. */
 export type OutputFormat = InputFormat | 'glb';
 
+/** Formats of hex meshes that are written; of GLB the boundary alone. */
+export type HexFormat = Exclude<OutputFormat, 'obj'>;
+
 /** Says what the bytes are. */
 export interface InputOptions {
   /** The format; by default that of the extension of `name`, else what the content is recognized as. */
@@ -114,8 +117,28 @@ export interface SurfaceArrays {
   corners: Uint32Array;
 }
 
+/** A hex mesh as arrays. */
+export interface HexArrays {
+  /** x, y, z of each node. */
+  nodes: Float64Array;
+  /** The eight nodes of each hex in the order of VTK_HEXAHEDRON, counted from 0. */
+  hexes: Uint32Array;
+}
+
+/** A box along the axes. */
+export interface Bounds {
+  min: Vector;
+  max: Vector;
+}
+
+/** A file's text or bytes. */
+export type FileInput = string | Uint8Array | ArrayBuffer | Blob;
+
 /** What a surface can be loaded from: a file's text or bytes, or arrays. */
-export type SurfaceInput = string | Uint8Array | ArrayBuffer | Blob | SurfaceArrays;
+export type SurfaceInput = FileInput | SurfaceArrays;
+
+/** What a hex mesh can be loaded from: a file's text or bytes, or arrays. */
+export type HexInput = FileInput | HexArrays;
 
 const EXTENSIONS: Readonly<Record<string, InputFormat>> = {
   obj: 'obj',
@@ -163,12 +186,26 @@ const SHAPE_KEYS: { readonly [K in Shape['kind']]: readonly Exclude<keyof Extrac
  */
 export function plainOptions(options: QuadOptions, besides: readonly string[] = []): QuadOptions {
   refuseUnknown(options, [...Object.keys(QUAD_OPTIONS), ...besides], 'option');
-  if (Array.isArray(options.regions)) options.regions.forEach(refuseUnknownKeys);
-  return Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined));
+  refuseUnknownKeys(options.regions);
+  return defined(options);
+}
+
+/** `options` without entries that are undefined. */
+export function defined<O extends object>(options: O): O {
+  return Object.fromEntries(Object.entries(options).filter(([, value]) => value !== undefined)) as O;
+}
+
+/**
+ * Refuses regions with a key that is none of their kind's.
+ *
+ * @throws {@link OptionsError} with the code `option-unknown`.
+ */
+export function refuseUnknownKeys(regions: readonly Region[] | undefined): void {
+  if (Array.isArray(regions)) regions.forEach(refuseUnknownKeysOf);
 }
 
 /** Kinds that are none and values that do not fit are for the mesher to refuse. */
-function refuseUnknownKeys(region: Region, index: number): void {
+function refuseUnknownKeysOf(region: Region, index: number): void {
   if (typeof region !== 'object' || region === null || !Object.hasOwn(SHAPE_KEYS, region.kind)) return;
   const known = ['kind', ...SHAPE_KEYS[region.kind], 'size', 'level'];
   refuseUnknown(region, known, `regions[${index}], a ${region.kind}: key`);

@@ -1,7 +1,10 @@
 import type { FromWorker, ToWorker } from './protocol.js';
 
-/** The module's files: on one thread, and on a pool of workers. */
-export type WasmFile = 'mesher.wasm' | 'mesher-threads.wasm';
+/** What a module does: mesh surfaces, or refine hexes. */
+export type ModuleName = 'mesher' | 'hexes';
+
+/** The modules' files: on one thread, and on a pool of workers. */
+export type WasmFile = `${ModuleName}.wasm` | `${ModuleName}-threads.wasm`;
 
 /** A worker as the calling thread sees it. */
 export interface WorkerHandle {

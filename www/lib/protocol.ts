@@ -1,20 +1,39 @@
 // What the calling thread and the workers say to each other.
 
 import type { Failure } from './errors.js';
-import type { InputFormat, OutputFormat, QuadOptions } from './options.js';
-import type { Estimate, MeshQuality, Metric, SurfaceInfo } from './results.js';
+import type { GridOptions, HexOptions } from './hex-options.js';
+import type { Bounds, HexArrays, HexFormat, InputFormat, OutputFormat, QuadOptions } from './options.js';
+import type { ModuleName } from './platform.js';
+import type { AddedHexes, Estimate, HexInfo, HexMetric, HexPlan, HexQuality, HexStage, MeshQuality, Metric, SurfaceInfo } from './results.js';
 
-/** A surface's source, kept by the calling thread so that a new worker can load it again. */
-export type SurfaceSource =
-  | { format: InputFormat | undefined; content: string | Uint8Array }
-  | { nodes: Float64Array; offsets: Uint32Array | undefined; corners: Uint32Array };
+/** A file; without a format its content tells it. */
+export interface FileData {
+  format: InputFormat | undefined;
+  content: string | Uint8Array;
+}
+
+/** What a surface is loaded from. */
+export type SurfaceSource = FileData | { nodes: Float64Array; offsets: Uint32Array | undefined; corners: Uint32Array };
+
+/** What hexes are loaded from, or made around. */
+export type HexSource = FileData | HexArrays | (GridOptions & Bounds);
+
+/** What an input is loaded from, kept by the calling thread so that a new worker can load it again. */
+export type Source = { want: 'surface'; from: SurfaceSource } | { want: 'hexes'; from: HexSource };
 
 /** A loaded surface. */
 export interface SurfaceData {
+  kind: 'surface';
   info: SurfaceInfo;
   nodes: Float64Array;
   offsets: Uint32Array;
   corners: Uint32Array;
+}
+
+/** A loaded hex mesh. */
+export interface HexMeshData extends HexArrays {
+  kind: 'hexes';
+  info: HexInfo;
 }
 
 /** A quad mesh as arrays. */
@@ -33,6 +52,23 @@ export interface QuadData extends QuadArrays {
   defects: string[];
 }
 
+/** A refined hex mesh as arrays. */
+export interface HexArraysMade extends HexArrays {
+  level: Uint8Array;
+  parent: Uint32Array;
+}
+
+/** A refined hex mesh. */
+export interface HexData extends HexArraysMade {
+  capped: number;
+  added: AddedHexes;
+  stages: HexStage[];
+  turned: number;
+  hash: string;
+  quality: HexQuality;
+  defects: string[];
+}
+
 /** The elements that a size function decides on. */
 export interface Candidates {
   centers: Float64Array;
@@ -40,18 +76,27 @@ export interface Candidates {
 }
 
 /**
- * The calls: what each takes and gives. `begin`, `advance` and `finish` are one refinement a level at a time; any
- * other call ends it. `surface` is the number that the calling thread gave the surface in `load`.
+ * The calls: what each takes and gives. `begin`, `advance` and `finish`, or `beginHexes`, `advance` and `finishHexes`,
+ * are one refinement a level at a time; any other call ends it. The module of surfaces answers what stands above
+ * `planHexes`, that of hexes the rest, `load`, `reload` and `advance`. `input` is the number that the calling thread gave a surface or hex mesh in `load`; `reload` tells
+ * nothing of what is known already.
  */
 export interface Calls {
-  load: { takes: { surface: number; source: SurfaceSource }; gives: SurfaceData };
-  estimate: { takes: { surface: number; options: QuadOptions }; gives: Estimate };
-  refine: { takes: { surface: number; options: QuadOptions }; gives: QuadData };
-  begin: { takes: { surface: number; options: QuadOptions }; gives: Candidates };
+  load: { takes: { input: number; source: Source }; gives: SurfaceData | HexMeshData };
+  reload: { takes: { input: number; source: Source }; gives: null };
+  estimate: { takes: { input: number; options: QuadOptions }; gives: Estimate };
+  refine: { takes: { input: number; options: QuadOptions }; gives: QuadData };
+  begin: { takes: { input: number; options: QuadOptions }; gives: Candidates };
   advance: { takes: { targets: Float64Array }; gives: Candidates | null };
   finish: { takes: object; gives: QuadData };
-  export: { takes: { surface: number; mesh: QuadArrays; format: OutputFormat }; gives: Uint8Array };
+  export: { takes: { input: number; mesh: QuadArrays; format: OutputFormat }; gives: Uint8Array };
   quality: { takes: { mesh: QuadArrays; metric: Metric }; gives: Float32Array };
+  planHexes: { takes: { input: number; options: HexOptions }; gives: HexPlan };
+  beginHexes: { takes: { input: number; options: HexOptions }; gives: Candidates };
+  finishHexes: { takes: object; gives: HexData };
+  refineHexes: { takes: { input: number; options: HexOptions }; gives: HexData };
+  exportHexes: { takes: { input: number; mesh: HexArraysMade; format: HexFormat }; gives: Uint8Array };
+  hexQuality: { takes: { mesh: HexArraysMade; metric: HexMetric }; gives: Float32Array };
 }
 
 /** The name of a call. */
@@ -70,10 +115,10 @@ export interface SharedControl {
 /** Messages to a worker. Its first is `start` for the one that meshes, `join` for the threads of its pool. */
 export type ToWorker =
   /** Load the module, from its address if it is not compiled yet. `pool`: threads to prepare for; 0: the one-thread module. */
-  | { type: 'start'; module: string | WebAssembly.Module; pool: number }
-  | { type: 'join'; module: WebAssembly.Module; memory: WebAssembly.Memory }
+  | { type: 'start'; name: ModuleName; module: string | WebAssembly.Module; pool: number }
+  | { type: 'join'; name: ModuleName; module: WebAssembly.Module; memory: WebAssembly.Memory }
   | { type: 'call'; id: number; call: Call }
-  | { type: 'drop'; surface: number };
+  | { type: 'drop'; input: number };
 
 /** Messages from a worker. */
 export type FromWorker =

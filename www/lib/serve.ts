@@ -1,11 +1,14 @@
 // A worker's side of the protocol, for browsers and for Node: see worker.ts and node-worker.ts.
 
-import initThreads, * as threaded from '../wasm/mesher-threads/mesher-threads.js';
-import initSingle, * as single from '../wasm/mesher/mesher.js';
+import initHexesThreaded, * as hexesThreaded from '../wasm/hexes-threads/hexes-threads.js';
+import initHexes, * as hexes from '../wasm/hexes/hexes.js';
+import initMesherThreaded, * as mesherThreaded from '../wasm/mesher-threads/mesher-threads.js';
+import initMesher, * as mesher from '../wasm/mesher/mesher.js';
 import { failureOf } from './errors.js';
 import type { Failure } from './errors.js';
 import { Meshing } from './meshing.js';
 import type { Bindings } from './meshing.js';
+import type { ModuleName } from './platform.js';
 import type { Call, FromWorker, SharedControl, ToWorker } from './protocol.js';
 
 /** What a worker needs of the platform that it runs on. */
@@ -14,6 +17,17 @@ export interface Host {
   /** Loads and compiles the module at an address. */
   compile(url: string): Promise<WebAssembly.Module>;
 }
+
+const MODULES = {
+  mesher: {
+    single: { init: initMesher, bindings: mesher },
+    threaded: { init: initMesherThreaded, bindings: mesherThreaded },
+  },
+  hexes: {
+    single: { init: initHexes, bindings: hexes },
+    threaded: { init: initHexesThreaded, bindings: hexesThreaded },
+  },
+} as const;
 
 /** Progress is told at most this often, in milliseconds. */
 const PROGRESS_INTERVAL = 40;
@@ -39,13 +53,21 @@ export function serve(host: Host): (message: ToWorker) => Promise<void> {
 const OUT_OF_MEMORY: Failure = {
   kind: 'internal',
   code: 'out-of-memory',
-  message: 'Memory ran out: ask for fewer quads, by a larger edge length or fewer levels. Nothing that was loaded is lost.',
+  message: 'Memory ran out: ask for fewer cells, by a larger edge length or fewer levels. Nothing that was loaded is lost.',
 };
 
 /** Whether an instance died for want of memory: Rust then aborts without a panic, JavaScript refuses an array. */
 function wantsMemory(thrown: unknown): boolean {
   if (thrown instanceof WebAssembly.RuntimeError) return /unreachable/i.test(thrown.message);
   return thrown instanceof RangeError && /alloc|memory|length|size/i.test(thrown.message) && !/stack/i.test(thrown.message);
+}
+
+/**
+ * The bindings of both modules in one type: each is asked only for what it has. The classes of one thread and of a pool
+ * differ in name alone, since both are made from the same Rust.
+ */
+function asBindings(bindings: object): Bindings {
+  return bindings as Bindings;
 }
 
 class ServedWorker {
@@ -67,13 +89,13 @@ class ServedWorker {
   async take(message: ToWorker): Promise<void> {
     switch (message.type) {
       case 'start':
-        return this.#start(message.module, message.pool);
+        return this.#start(message.name, message.module, message.pool);
       case 'join':
-        return this.#join(message.module, message.memory);
+        return this.#join(message.name, message.module, message.memory);
       case 'call':
         return this.#answer(message.id, message.call);
       case 'drop':
-        return this.#meshing?.drop(message.surface);
+        return this.#meshing?.drop(message.input);
     }
   }
 
@@ -85,9 +107,9 @@ class ServedWorker {
     return wantsMemory(thrown) ? OUT_OF_MEMORY : failureOf(thrown);
   }
 
-  async #start(source: string | WebAssembly.Module, pool: number): Promise<void> {
+  async #start(name: ModuleName, source: string | WebAssembly.Module, pool: number): Promise<void> {
     const module = typeof source === 'string' ? await this.#compile(source) : source;
-    const shared = pool > 0 ? await this.#startShared(module, pool) : await this.#startSingle(module);
+    const shared = pool > 0 ? await this.#startShared(name, module, pool) : await this.#startSingle(name, module);
     this.#host.post({ type: 'started', module, shared }, []);
   }
 
@@ -101,28 +123,30 @@ class ServedWorker {
     }
   }
 
-  async #startSingle(module: WebAssembly.Module): Promise<null> {
-    await initSingle({ module_or_path: module });
-    single.reportPanics();
-    this.#meshing = new Meshing(single);
+  async #startSingle(name: ModuleName, module: WebAssembly.Module): Promise<null> {
+    const { init, bindings } = MODULES[name].single;
+    await init({ module_or_path: module });
+    bindings.reportPanics();
+    this.#meshing = new Meshing(asBindings(bindings));
     return null;
   }
 
-  async #startShared(module: WebAssembly.Module, pool: number): Promise<SharedControl> {
-    const { memory } = await initThreads({ module_or_path: module });
-    threaded.reportPanics();
-    threaded.preparePool(pool);
-    // The classes differ in name only: both are made from the same Rust.
-    this.#meshing = new Meshing(threaded as unknown as Bindings);
-    return { memory, address: threaded.controlAddress() };
+  async #startShared(name: ModuleName, module: WebAssembly.Module, pool: number): Promise<SharedControl> {
+    const { init, bindings } = MODULES[name].threaded;
+    const { memory } = await init({ module_or_path: module });
+    bindings.reportPanics();
+    bindings.preparePool(pool);
+    this.#meshing = new Meshing(asBindings(bindings));
+    return { memory, address: bindings.controlAddress() };
   }
 
   /** Becomes a thread of the pool: never returns, unless the thread dies. */
-  async #join(module: WebAssembly.Module, memory: WebAssembly.Memory): Promise<void> {
-    await initThreads({ module_or_path: module, memory });
-    threaded.reportPanics();
+  async #join(name: ModuleName, module: WebAssembly.Module, memory: WebAssembly.Memory): Promise<void> {
+    const { init, bindings } = MODULES[name].threaded;
+    await init({ module_or_path: module, memory });
+    bindings.reportPanics();
     this.#host.post({ type: 'joined' }, []);
-    threaded.runPoolThread();
+    bindings.runPoolThread();
   }
 
   #answer(id: number, call: Call): void {

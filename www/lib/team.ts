@@ -3,7 +3,7 @@
 import { InternalError, errorOf } from './errors.js';
 import type { HexmillError } from './errors.js';
 import type { Progress } from './options.js';
-import type { Platform, WorkerHandle } from './platform.js';
+import type { ModuleName, Platform, WorkerHandle } from './platform.js';
 import { CONTROL } from './protocol.js';
 import type { Call, FromWorker, SharedControl } from './protocol.js';
 
@@ -11,6 +11,8 @@ import type { Call, FromWorker, SharedControl } from './protocol.js';
 export interface TeamSettings {
   platform: Platform;
   workerUrl: string | URL | undefined;
+  /** What the module does. */
+  name: ModuleName;
   /** The module, or its address. */
   module: string | WebAssembly.Module;
   /** Threads of the pool; 0: no pool, and the module of one thread. */
@@ -32,8 +34,8 @@ interface Pending {
 
 /** Workers that live and die together; one call at a time. */
 export class Team {
-  /** Numbers of the surfaces that the worker has or is loading. */
-  readonly surfaces = new Set<number>();
+  /** Numbers of the inputs that the worker has or is loading. */
+  readonly inputs = new Set<number>();
   readonly #lead: WorkerHandle;
   readonly #helpers: WorkerHandle[] = [];
   #module: WebAssembly.Module | null = null;
@@ -51,9 +53,9 @@ export class Team {
     this.ready = new Promise((resolve, reject) => {
       this.#starting = { resolve, reject };
     });
-    const { module, pool } = settings;
+    const { name, module, pool } = settings;
     this.#lead = this.#spawn(settings);
-    this.#lead.post({ type: 'start', module, pool });
+    this.#lead.post({ type: 'start', name, module, pool });
   }
 
   /** The compiled module, once the team is ready. */
@@ -84,9 +86,9 @@ export class Team {
     return this.#answer;
   }
 
-  /** Frees a surface. */
-  drop(surface: number): void {
-    if (this.surfaces.delete(surface)) this.#lead.post({ type: 'drop', surface });
+  /** Frees an input. */
+  drop(input: number): void {
+    if (this.inputs.delete(input)) this.#lead.post({ type: 'drop', input });
   }
 
   /** Waits until no call is under way; false if one still is after `milliseconds`. */
@@ -166,7 +168,7 @@ export class Team {
     for (let thread = 0; thread < settings.pool; thread++) {
       const helper = this.#spawn(settings);
       this.#helpers.push(helper);
-      helper.post({ type: 'join', module, memory: shared.memory });
+      helper.post({ type: 'join', name: settings.name, module, memory: shared.memory });
       helper.setBusy(false);
     }
   }

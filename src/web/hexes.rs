@@ -1,0 +1,215 @@
+//! Refinement of hexes in one call, what it will do, and the hex mesh that it makes.
+
+use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
+use serde::Serialize;
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+use super::convert::{cells, check_parents, points, to_object};
+use super::errors::Failure;
+use super::file::format_named;
+use super::hex_mesh::HexMesh;
+use super::listener::Listener;
+use super::memory::{Affordable, Cost, Limited};
+use super::pool::on_pool;
+use crate::geometry::Point;
+use crate::io::{self, Document};
+use crate::mesh::check::{check_hexes, summary};
+use crate::mesh::quality::hex_quality;
+use crate::mesh::{FaceId, NodeId, mesh_hash};
+use crate::refine::hex::{
+    Added, HexForecast, HexOptions, HexPlan, HexRefineError, RefinedHexes, StageForecast, refine_hexes,
+};
+
+/// What memory holds; `www/lib/hex-options.ts` has the number of hexes that this comes to.
+const COST: Cost = Cost { bytes_per_cell: BYTES_PER_HEX, most_asked: HexOptions::MOST_HEXES, cells: "hexes" };
+
+/// Peak memory of refinement for each hex of the result, in WebAssembly.
+const BYTES_PER_HEX: u64 = 600;
+
+impl Limited for HexOptions {
+    type Error = HexRefineError;
+    const COST: &'static Cost = &COST;
+
+    fn max_cells(&mut self) -> &mut u64 {
+        &mut self.max_hexes
+    }
+
+    fn too_many(error: &HexRefineError) -> Option<u64> {
+        if let HexRefineError::TooManyHexes { hexes, .. } = error { Some(*hexes) } else { None }
+    }
+}
+
+/// A refined hex mesh on its way to JavaScript.
+#[wasm_bindgen]
+pub struct Hexes {
+    refined: RefinedHexes,
+}
+
+#[wasm_bindgen]
+impl Hexes {
+    /// x, y, z of each node.
+    pub fn nodes(&self) -> Float64Array {
+        bytemuck::cast_slice::<Point, f64>(&self.refined.mesh.positions).into()
+    }
+
+    /// The eight nodes of each hex.
+    pub fn hexes(&self) -> Uint32Array {
+        bytemuck::cast_slice::<[NodeId; 8], u32>(&self.refined.mesh.hexes).into()
+    }
+
+    /// The refinement level of each hex.
+    pub fn level(&self) -> Uint8Array {
+        self.refined.level.as_slice().into()
+    }
+
+    /// The input hex that each hex is part of.
+    pub fn parent(&self) -> Uint32Array {
+        self.refined.root.as_slice().into()
+    }
+
+    /// Elements that are larger than asked for, because the deepest level allowed was reached.
+    pub fn capped(&self) -> usize {
+        self.refined.capped
+    }
+
+    /// Hexes of the input that were numbered inside out, and were turned.
+    pub fn turned(&self) -> usize {
+        self.refined.turned
+    }
+
+    /// Elements that were refined beyond those asked for, and why: an object with the fields of `AddedHexes` in
+    /// `www/lib/results.ts`.
+    ///
+    /// # Errors
+    /// None in practice: numbers can always be converted.
+    pub fn added(&self) -> Result<JsValue, Failure> {
+        to_object(&self.refined.added)
+    }
+
+    /// What each stage did, coarse to fine: objects with the fields of `HexStage` in `www/lib/results.ts`.
+    ///
+    /// # Errors
+    /// None in practice: numbers can always be converted.
+    pub fn stages(&self) -> Result<JsValue, Failure> {
+        to_object(&self.refined.stages)
+    }
+
+    /// The fingerprint of nodes and hexes.
+    pub fn hash(&self) -> String {
+        let mesh = &self.refined.mesh;
+        on_pool(|| mesh_hash(&mesh.positions, &mesh.hexes)).to_string()
+    }
+
+    /// How well shaped the hexes are: an object with the fields of `HexQuality` in `www/lib/results.ts`.
+    ///
+    /// # Errors
+    /// None in practice: numbers can always be converted.
+    pub fn quality(&self) -> Result<JsValue, Failure> {
+        to_object(&on_pool(|| hex_quality(&self.refined.mesh).report()))
+    }
+
+    /// What is wrong with the mesh: one line for each kind of defect.
+    pub fn defects(&self) -> Vec<String> {
+        let defects = on_pool(|| check_hexes(&self.refined.mesh));
+        summary(&defects).iter().map(ToString::to_string).collect()
+    }
+}
+
+impl Hexes {
+    /// The result of refining an input of which so many hexes had been `turned` when it was loaded.
+    pub(super) fn new(refined: RefinedHexes, turned: usize) -> Self {
+        Self { refined: RefinedHexes { turned: turned + refined.turned, ..refined } }
+    }
+}
+
+/// Refines a hex mesh; see `refine::hex::refine_hexes`.
+///
+/// # Errors
+/// What `refine_hexes` refuses, meshes that memory would not hold, and options that are none.
+#[wasm_bindgen(js_name = refineHexes)]
+pub fn refine(input: &HexMesh, options: JsValue) -> Result<Hexes, Failure> {
+    let affordable = Affordable::<HexOptions>::read(options)?;
+    let refined = on_pool(|| refine_hexes(&input.mesh, &affordable.options, &Listener))
+        .map_err(|error| affordable.failure(error))?;
+    Ok(Hexes::new(refined, input.turned))
+}
+
+/// What is told of a refinement before the work.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Plan {
+    tree_hexes: usize,
+    hexes: usize,
+    transition: usize,
+    bytes: u64,
+    stages: Vec<StageForecast>,
+    added: Added,
+}
+
+impl From<HexPlan<'_>> for Plan {
+    fn from(plan: HexPlan) -> Self {
+        let HexForecast { hexes, transition, stages, .. } = plan.forecast().clone();
+        let bytes = hexes as u64 * BYTES_PER_HEX;
+        Self { tree_hexes: plan.tree_hexes(), hexes, transition, bytes, stages, added: plan.added() }
+    }
+}
+
+/// Tells what [`refine`] will do: an object with the fields of `HexPlan` in `www/lib/results.ts`.
+///
+/// # Errors
+/// What `HexPlan::new` refuses, meshes that memory would not hold, and options that are none.
+#[wasm_bindgen(js_name = planHexes)]
+pub fn plan(input: &HexMesh, options: JsValue) -> Result<JsValue, Failure> {
+    let affordable = Affordable::<HexOptions>::read(options)?;
+    let plan = on_pool(|| HexPlan::new(&input.mesh, &affordable.options, &Listener).map(Plan::from));
+    to_object(&plan.map_err(|error| affordable.failure(error))?)
+}
+
+/// A refined mesh, given back as arrays, as the bytes of a file. `input`, which it was made from, tells the tags.
+///
+/// # Errors
+/// If the arrays do not fit together, there is no such format, or it holds no hexes.
+#[wasm_bindgen(js_name = exportHexes)]
+pub fn export(
+    input: &HexMesh,
+    nodes: Vec<f64>,
+    hexes: Vec<u32>,
+    level: Vec<u8>,
+    parent: &[u32],
+    format: &str,
+) -> Result<Uint8Array, Failure> {
+    let format = format_named(format)?;
+    let mesh = hex_mesh(nodes, hexes)?;
+    check_parents(parent, mesh.hexes.len(), input.mesh.hexes.len())?;
+    let tags = input.mesh.tags.inherited(parent);
+    let parent = parent.iter().copied().map(FaceId).collect();
+    let document = Document { tags, level, parent, ..Document::from(mesh) };
+    Ok(on_pool(|| io::write(&document, format))?.as_slice().into())
+}
+
+/// A measure of each hex, by its name in `HexQuality`.
+///
+/// # Errors
+/// If the arrays do not fit together or there is no such measure.
+#[wasm_bindgen(js_name = hexQuality)]
+pub fn quality(nodes: Vec<f64>, hexes: Vec<u32>, metric: &str) -> Result<Float32Array, Failure> {
+    let mesh = hex_mesh(nodes, hexes)?;
+    let quality = on_pool(|| hex_quality(&mesh));
+    let values = match metric {
+        "scaledJacobian" => quality.scaled_jacobian,
+        "aspect" => quality.aspect,
+        "volume" => quality.volume,
+        _ => {
+            let message = format!("there is no measure {metric:?}; give scaledJacobian, aspect or volume");
+            return Err(Failure::options("metric-unknown", &message));
+        }
+    };
+    Ok(values.as_slice().into())
+}
+
+/// The mesh of these arrays, in their own memory.
+fn hex_mesh(nodes: Vec<f64>, hexes: Vec<u32>) -> Result<crate::mesh::HexMesh, Failure> {
+    let positions = points(nodes)?;
+    let hexes = cells(hexes, positions.len(), "hexes")?;
+    Ok(crate::mesh::HexMesh { positions, hexes, ..Default::default() })
+}

@@ -1,0 +1,152 @@
+// What a mesher has made: conforming meshes as arrays.
+
+import type { Engine, InputRecord } from './engine.js';
+import { InputError } from './errors.js';
+import type { HexMesh, Surface } from './loaded.js';
+import type { CallOptions, HexFormat, OutputFormat } from './options.js';
+import type { HexArraysMade, HexData, QuadArrays, QuadData } from './protocol.js';
+import type { AddedHexes, HexMetric, HexQuality, HexStage, MeshQuality, Metric } from './results.js';
+
+/** Where a mesh was made, and from what. */
+interface Origin {
+  engine: Engine;
+  input: InputRecord;
+  /** The input if it was loaded for this mesh alone. */
+  own: Surface | HexMesh | null;
+}
+
+/** A mesh that a mesher has made. */
+abstract class Made {
+  /** @internal */
+  protected readonly origin: Origin;
+  /** x, y, z of each node. */
+  readonly nodes: Float64Array;
+  /** Elements that are larger than asked for, because `maxLevels` was reached. */
+  readonly capped: number;
+  /** A fingerprint of nodes and cells: the same for the same input and options on every platform. */
+  readonly hash: string;
+  /** What is wrong with the mesh, in words: empty for every mesh of a sound input. */
+  readonly defects: readonly string[];
+
+  /** @internal */
+  constructor(origin: Origin, data: { nodes: Float64Array; capped: number; hash: string; defects: string[] }) {
+    this.origin = origin;
+    this.nodes = data.nodes;
+    this.capped = data.capped;
+    this.hash = data.hash;
+    this.defects = data.defects;
+  }
+
+  /** Frees what the worker keeps for it: an input that was loaded for it alone. The mesh itself stays good. */
+  dispose(): void {
+    this.origin.own?.dispose();
+  }
+
+  /** The same as `dispose`, for `using`. */
+  [Symbol.dispose](): void {
+    this.dispose();
+  }
+
+  /** @internal */
+  protected refuseDetached(): void {
+    if (this.nodes.length > 0) return;
+    throw new InputError('mesh-detached', 'The arrays of the mesh were transferred elsewhere; transfer copies.');
+  }
+}
+
+/** A conforming mesh of quads. */
+export class QuadMesh extends Made {
+  /** The four nodes of each quad, in order around it. */
+  readonly quads: Uint32Array;
+  /** The refinement level of each quad. */
+  readonly level: Uint8Array;
+  /** The input face that each quad is part of. */
+  readonly parent: Uint32Array;
+  /** How well shaped the quads are. */
+  readonly quality: MeshQuality;
+
+  /** @internal */
+  constructor(origin: Origin, data: QuadData) {
+    super(origin, data);
+    this.quads = data.quads;
+    this.level = data.level;
+    this.parent = data.parent;
+    this.quality = data.quality;
+  }
+
+  /** A measure of each quad, for colouring. */
+  qualityOf(metric: Metric, options: CallOptions = {}): Promise<Float32Array> {
+    return this.origin.engine.run((desk) => desk.call('quality', { mesh: this.#arrays(), metric }), options);
+  }
+
+  /**
+   * The mesh as a file, with the tags that the surface's file gave to its faces.
+   *
+   * @throws {@link OptionsError} if there is no such format.
+   */
+  export(format: OutputFormat, options: CallOptions = {}): Promise<Uint8Array> {
+    return this.origin.engine.run(async (desk) => {
+      const input = await desk.input(this.origin.input);
+      return desk.call('export', { input, mesh: this.#arrays(), format });
+    }, options);
+  }
+
+  #arrays(): QuadArrays {
+    this.refuseDetached();
+    const { nodes, quads, level, parent } = this;
+    return { nodes, quads, level, parent };
+  }
+}
+
+/** A conforming mesh of hexes. Each has a positive Jacobian, at its corners and inside. */
+export class RefinedHexes extends Made {
+  /** The eight nodes of each hex in the order of VTK_HEXAHEDRON. */
+  readonly hexes: Uint32Array;
+  /** The refinement level of each hex; a transition hex has that of the coarse hex that it is part of. */
+  readonly level: Uint8Array;
+  /** The input hex that each hex is part of. */
+  readonly parent: Uint32Array;
+  /** Elements that were refined beyond those asked for, and why. */
+  readonly added: AddedHexes;
+  /** What each stage did, coarse to fine. */
+  readonly stages: readonly HexStage[];
+  /** Hexes of the input that were numbered inside out, and were turned. */
+  readonly turned: number;
+  /** How well shaped the hexes are. */
+  readonly quality: HexQuality;
+
+  /** @internal */
+  constructor(origin: Origin, data: HexData) {
+    super(origin, data);
+    this.hexes = data.hexes;
+    this.level = data.level;
+    this.parent = data.parent;
+    this.added = data.added;
+    this.stages = data.stages;
+    this.turned = data.turned;
+    this.quality = data.quality;
+  }
+
+  /** A measure of each hex, for colouring. */
+  qualityOf(metric: HexMetric, options: CallOptions = {}): Promise<Float32Array> {
+    return this.origin.engine.run((desk) => desk.call('hexQuality', { mesh: this.#arrays(), metric }), options);
+  }
+
+  /**
+   * The mesh as a file, with the tags that the input's file gave to its hexes.
+   *
+   * @throws {@link OptionsError} if there is no such format, or it holds no hexes.
+   */
+  export(format: HexFormat, options: CallOptions = {}): Promise<Uint8Array> {
+    return this.origin.engine.run(async (desk) => {
+      const input = await desk.input(this.origin.input);
+      return desk.call('exportHexes', { input, mesh: this.#arrays(), format });
+    }, options);
+  }
+
+  #arrays(): HexArraysMade {
+    this.refuseDetached();
+    const { nodes, hexes, level, parent } = this;
+    return { nodes, hexes, level, parent };
+  }
+}
