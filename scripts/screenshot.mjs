@@ -1,5 +1,5 @@
-// Takes the pictures of the page that ship with the project, from the page itself: the one in the README, and a small
-// one of each example, on light and on dark ground.
+// Takes the pictures of the page that ship with the project, from the page itself: those in the README, of quads and of
+// hexes, and a small one of each example, on light and on dark ground.
 //
 //     npm run screenshot      (the page has to be built: npm run build; then build it again)
 
@@ -12,10 +12,14 @@ import { serveFolder } from './static-server.mjs';
 
 const SITE = join(root, 'site');
 const PICTURE = join(root, 'docs', 'screenshot.png');
+const HEXES = join(root, 'docs', 'hexes.png');
 const THUMBNAILS = join(root, 'www', 'app', 'thumbnails');
 
 /** Spot with its muzzle and a leg refined. */
-const LINK = '#example=spot&edge-length=0.06&region=sphere:0,0.42,-0.45,0.32:h=0.015&region=cylinder:-0.3,-0.5,-0.1,-0.3,-0.2,-0.1,0.17:level=4';
+const LINK = '#example=spot&edge-length=0.06&region=sphere:0,0.42,-0.45,0.32:h=0.015&region=cylinder:-0.3,-0.5,-0.1,-0.3,-0.2,-0.1,0.17:level=4&colour=level';
+
+/** A box of hexes around Spot, refined at its surface and cut open along its middle. */
+const HEX_LINK = '#example=spot&job=hexes&spacing=0.2&margin=0.3&at-surface=2&method=two&section=1,0,0,0';
 
 /** Presses of an arrow key from the corner that the page starts with to the model's better side. */
 const TURN = { spot: 15, bunny: 6 };
@@ -38,14 +42,15 @@ await main(async () => {
   const server = await serveFolder(SITE);
   const browser = await launchBrowser();
   try {
-    await takePicture(browser, server.url);
+    await takePicture(browser, `${server.url}${LINK}`, PICTURE, TURN.spot);
+    await takePicture(browser, `${server.url}${HEX_LINK}`, HEXES, 0);
     mkdirSync(THUMBNAILS, { recursive: true });
     for (const scheme of ['light', 'dark']) await takeThumbnails(browser, server.url, scheme);
   } finally {
     await browser.close();
     await server.close();
   }
-  console.log('docs/screenshot.png and www/app/thumbnails/ hold the pictures');
+  console.log('docs/screenshot.png, docs/hexes.png and www/app/thumbnails/ hold the pictures');
 });
 
 async function open(browser, address, viewport, colorScheme) {
@@ -61,16 +66,15 @@ async function turn(page, presses) {
   for (let press = 0; press < presses; press++) await page.keyboard.press('ArrowRight');
 }
 
-async function takePicture(browser, url) {
-  const page = await open(browser, `${url}${LINK}`, { width: 1440, height: 900 }, 'light');
+async function takePicture(browser, address, path, presses) {
+  const page = await open(browser, address, { width: 1440, height: 900 }, 'light');
   await page.getByRole('toolbar', { name: 'View' }).waitFor();
   await page.locator('#mesh:enabled').click();
   await page.locator('#mesh', { hasText: 'Meshed' }).waitFor();
-  await page.getByRole('radiogroup', { name: 'Colour cells by' }).getByRole('radio', { name: 'Level' }).check();
-  await turn(page, TURN.spot);
+  await turn(page, presses);
   await page.getByRole('button', { name: 'See all (F)' }).click();
   await page.waitForTimeout(REST);
-  await page.screenshot({ path: PICTURE });
+  await page.screenshot({ path });
   await page.close();
 }
 

@@ -34,6 +34,12 @@ export function model(file: string): string {
   return readFileSync(new URL(file, MODELS), 'utf8');
 }
 
+/** Colours of the view on light ground (src/scene/theme.rs). */
+const TONES = {
+  cap: { red: 160, green: 200, blue: 238 },
+  mark: { red: 232, green: 89, blue: 12 },
+} as const;
+
 /** Some cells of a mesh. */
 interface Cells {
   cells: number;
@@ -112,21 +118,21 @@ export class Workbench {
   }
 
   /** A count of the result. */
-  async figure(name: 'quads' | 'nodes'): Promise<number> {
+  async figure(name: 'quads' | 'hexes' | 'nodes'): Promise<number> {
     return whole(await this.page.locator(`[data-figure=${name}]`).innerText());
   }
 
   /** The estimate of the settings as they are now. */
   async estimate(): Promise<number> {
     await this.page.waitForFunction(() => window.hexmill.workbench.isEstimated.value);
-    return Number(await this.page.locator('.estimate [data-quads]').getAttribute('data-quads'));
+    return Number(await this.page.locator('.estimate [data-cells]').getAttribute('data-cells'));
   }
 
   /** Cells of the result with all nodes in a sphere, and those beyond twice its radius. */
   async cellsOf(sphere: { center: readonly number[]; radius: number }): Promise<{ inside: Cells; farAway: Cells }> {
     return this.page.evaluate(({ center, radius }) => {
       const mesh = window.hexmill.workbench.result.value?.mesh;
-      if (!mesh) throw new Error('no mesh');
+      if (!mesh || !('quads' in mesh)) throw new Error('no mesh of quads');
       const { nodes, quads } = mesh;
       const inside = { cells: 0, longest: 0 };
       const farAway = { cells: 0, longest: 0 };
@@ -190,7 +196,31 @@ export class Workbench {
     );
   }
 
-  /** Where a handle of the selected region is on the page. */
+  /** The share of a picture's pixels that have a tone, whatever light falls on it. */
+  async shareOf(picture: Buffer, tone: keyof typeof TONES): Promise<number> {
+    return this.page.evaluate(
+      async ([base64, { red, green, blue }]) => {
+        const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+        const image = await createImageBitmap(new Blob([bytes]));
+        const paper = new OffscreenCanvas(image.width, image.height).getContext('2d');
+        if (!paper) throw new Error('no 2D canvas');
+        paper.drawImage(image, 0, 0);
+        const { data } = paper.getImageData(0, 0, image.width, image.height);
+        const most = Math.max(red, green, blue);
+        let found = 0;
+        for (let i = 0; i < data.length; i += 4) {
+          const [r = 0, g = 0, b = 0] = data.subarray(i, i + 3);
+          const brightest = Math.max(r, g, b, 1);
+          const off = Math.max(...[r / brightest - red / most, g / brightest - green / most, b / brightest - blue / most].map(Math.abs));
+          if (brightest > 90 && off < 0.04) found += 1;
+        }
+        return found / (data.length / 4);
+      },
+      [picture.toString('base64'), TONES[tone]] as const,
+    );
+  }
+
+  /** Where a handle of the selected region, or of the plane that cuts hexes, is on the page. */
   async handle(name?: string): Promise<{ name: string; x: number; y: number }> {
     const handles = await this.page.evaluate(() => window.hexmill.viewport.handles());
     const box = await this.page.locator('#view canvas').boundingBox();

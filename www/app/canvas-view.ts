@@ -4,7 +4,7 @@ import type { Viewer } from '../wasm/viewer/viewer.js';
 import { Motion } from './motion.js';
 import { type Actions, listenForGestures } from './view-gestures.js';
 import { messageOf, ViewError } from './view-types.js';
-import type { Colouring, Direction, DragPhase, DrawMesh, FaceHit, Style, View, ViewRegion } from './view-types.js';
+import type { Colouring, Direction, DragPhase, DrawHexes, DrawMesh, FaceHit, Section, Style, Vector, View, ViewRegion } from './view-types.js';
 
 export type Module = typeof import('../wasm/viewer/viewer.js');
 
@@ -22,6 +22,11 @@ const DEFAULT_STYLE: Style = {
   up: 'z',
   covered: [0, 0],
 };
+/** What is shown. */
+type Told = 'style' | 'box' | 'regions' | 'mesh' | OfMesh;
+/** What is told of one mesh, and forgotten with it. */
+const OF_MESH = ['colouring', 'section', 'peel', 'filter', 'mark'] as const;
+type OfMesh = (typeof OF_MESH)[number];
 const LOST =
   'The browser took the graphics away, often because memory ran out or the graphics driver restarted. ' +
   'Your meshes are safe; the picture comes back when the browser allows it.';
@@ -34,11 +39,10 @@ export class CanvasView implements View {
   readonly #observer: ResizeObserver;
   #viewer: Viewer | null = null;
 
-  // What is shown, kept to show it again after a loss.
-  #mesh: DrawMesh | null = null;
-  #colouring: Colouring = { kind: 'plain' };
+  /** What a viewer was told last of each thing it shows, in order: a new one is told all of it after a loss. */
+  readonly #told = new Map<Told, (viewer: Viewer) => void>();
   #style = DEFAULT_STYLE;
-  #regions: ViewRegion[] = [];
+  #nodes = 0;
   #selected: number | null = null;
   #camera: Float64Array | null = null;
 
@@ -51,6 +55,7 @@ export class CanvasView implements View {
   #flightStart: number | null = null;
 
   #regionDrag: (index: number, region: ViewRegion, phase: DragPhase) => void = () => {};
+  #sectionDrag: (section: Section, phase: DragPhase) => void = () => {};
   #regionPick: (index: number | null) => void = () => {};
   #pick: (hit: FaceHit | null) => void = () => {};
   #lost: (message: string) => void = () => {};
@@ -86,35 +91,92 @@ export class CanvasView implements View {
   }
 
   setMesh(mesh: DrawMesh | null, { keepCamera = false } = {}): void {
-    this.#mesh = mesh;
-    this.#colouring = { kind: 'plain' };
-    this.#change((viewer) => {
+    this.#show(mesh, (viewer) => {
       if (mesh) viewer.setMesh(mesh.nodes, mesh.offsets ?? undefined, mesh.corners, keepCamera);
       else viewer.clearMesh();
     });
-    // Once the mesh is seen and the page has nothing else to do.
+  }
+
+  setHexes(mesh: DrawHexes, { keepCamera = false } = {}): void {
+    this.#show(mesh, (viewer) => viewer.setHexes(mesh.nodes, mesh.hexes, keepCamera));
+  }
+
+  /** Shows another mesh, all of it and in one colour. */
+  #show(mesh: DrawMesh | DrawHexes | null, show: (viewer: Viewer) => void): void {
+    this.#nodes = (mesh?.nodes.length ?? 0) / 3;
+    for (const what of ['mesh', ...OF_MESH] as const) this.#told.delete(what);
+    this.#tell('mesh', show);
+    this.#preparePicking();
+  }
+
+  /** Tells the viewer of something that it shows from now on. */
+  #tell(what: Told, tell: (viewer: Viewer) => void): void {
+    this.#told.set(what, tell);
+    this.#change(tell);
+  }
+
+  /** Once the mesh is seen and the page has nothing else to do. */
+  #preparePicking(): void {
     clearTimeout(this.#preparation);
     this.#preparation = setTimeout(() => this.#viewer?.preparePicking(), PREPARATION_MS);
   }
 
   setColouring(colouring: Colouring): void {
-    this.#colouring = colouring;
-    this.#change((viewer) => {
+    this.#tell('colouring', (viewer) => {
       if (colouring.kind === 'plain') return viewer.colourPlain();
       const { values, range, map } = colouring;
       viewer.colourByValue(values, range[0], range[1], map);
     });
   }
 
+  setSection(section: Section | null): void {
+    this.#tell('section', (viewer) => viewer.setSection(section ? { kind: 'section', ...section } : undefined));
+    this.#preparePicking();
+  }
+
+  onSectionDrag(callback: (section: Section, phase: DragPhase) => void): void {
+    this.#sectionDrag = callback;
+  }
+
+  setPeel(layers: number): void {
+    this.#tell('peel', (viewer) => viewer.peel(layers));
+    this.#preparePicking();
+  }
+
+  layers(): number {
+    return this.#viewer?.layers() ?? 0;
+  }
+
+  depthOf(cell: number): number {
+    return this.#viewer?.depthOf(cell) ?? 0;
+  }
+
+  setFilter(filter: { values: Float32Array; range: [number, number] } | null): void {
+    this.#tell('filter', (viewer) => viewer.filter(filter?.values, ...(filter?.range ?? ([0, 0] as const))));
+    this.#preparePicking();
+  }
+
+  mark(cell: number | null): void {
+    this.#tell('mark', (viewer) => viewer.mark(cell ?? undefined));
+  }
+
+  setBox(box: { min: Vector; max: Vector } | null): void {
+    this.#tell('box', (viewer) => viewer.setBox(box ? new Float64Array([...box.min, ...box.max]) : undefined));
+  }
+
+  forward(): Vector {
+    const [x = 0, y = 0, z = -1] = this.#viewer?.forward() ?? [];
+    return [x, y, z];
+  }
+
   setStyle(style: Partial<Style>): void {
     this.#style = { ...this.#style, ...style };
-    this.#change((viewer) => viewer.setStyle(this.#drawnStyle()));
+    this.#tell('style', (viewer) => viewer.setStyle(this.#drawnStyle()));
   }
 
   setRegions(regions: ViewRegion[], selected: number | null): void {
-    this.#regions = regions;
     this.#selected = selected;
-    this.#change((viewer) => viewer.setRegions(regions, selected ?? undefined));
+    this.#tell('regions', (viewer) => viewer.setRegions(regions, selected ?? undefined));
   }
 
   onRegionDrag(callback: (index: number, region: ViewRegion, phase: DragPhase) => void): void {
@@ -166,13 +228,11 @@ export class CanvasView implements View {
   }
 
   stats(): { frameMs: number; faces: number; nodes: number; gpuBytes: number } {
-    const nodes = (this.#mesh?.nodes.length ?? 0) / 3;
-    return { frameMs: this.#frameMs, faces: this.#faces(), nodes, gpuBytes: this.#viewer?.meshBytes() ?? 0 };
+    return { frameMs: this.#frameMs, faces: this.#faces(), nodes: this.#nodes, gpuBytes: this.#viewer?.meshBytes() ?? 0 };
   }
 
   #faces(): number {
-    const { offsets, corners } = this.#mesh ?? { offsets: null, corners: [] };
-    return offsets ? offsets.length - 1 : corners.length / 4;
+    return this.#viewer?.faceCount() ?? 0;
   }
 
   dispose(): void {
@@ -279,11 +339,7 @@ export class CanvasView implements View {
     try {
       this.#viewer = await this.#module.Viewer.create(this.#canvas);
       this.#resize();
-      const colouring = this.#colouring;
-      this.setStyle({});
-      this.setMesh(this.#mesh);
-      this.setColouring(colouring);
-      this.setRegions(this.#regions, this.#selected);
+      for (const tell of this.#told.values()) this.#change(tell);
       if (this.#camera) this.#viewer.setCamera(this.#camera);
       this.#restored();
     } catch (cause) {
@@ -294,28 +350,23 @@ export class CanvasView implements View {
 
   #actions(): Actions {
     const act = (action: (viewer: Viewer) => void) => this.#change(action);
-    let dragged: number | null = null;
+    let isDragging = false;
     return {
       press: (x, y, reach) => {
-        dragged = this.#viewer?.dragStart(x, y, reach) ? this.#selected : null;
-        if (dragged === null) act((viewer) => viewer.grab(x, y));
-        return dragged === null ? 'camera' : 'handle';
+        isDragging = this.#viewer?.dragStart(x, y, reach) ?? false;
+        if (!isDragging) act((viewer) => viewer.grab(x, y));
+        return isDragging ? 'handle' : 'camera';
       },
       grabMiddle: () => act((viewer) => viewer.grabMiddle()),
       drag: (x, y) => {
-        if (dragged === null) return;
-        const index = dragged;
-        act((viewer) => {
-          const region: ViewRegion = viewer.dragTo(x, y);
-          this.#regions = this.#regions.map((old, i) => (i === index ? region : old));
-          this.#regionDrag(index, region, 'drag');
-        });
+        if (!isDragging) return;
+        this.#motion.moved(this.#faces());
+        act((viewer) => this.#dragged(viewer.dragTo(x, y), 'drag'));
       },
       release: () => {
+        if (isDragging) act((viewer) => this.#dragged(viewer.dragged(), 'end'));
+        isDragging = false;
         act((viewer) => viewer.release());
-        const region = dragged === null ? undefined : this.#regions[dragged];
-        if (dragged !== null && region) this.#regionDrag(dragged, region, 'end');
-        dragged = null;
       },
       hover: (x, y, reach) => {
         if (!this.#viewer) return null;
@@ -332,6 +383,13 @@ export class CanvasView implements View {
       setPivot: (x, y) => this.#fly((viewer) => viewer.setPivot(x, y)),
       frameAll: () => this.frameAll(),
     };
+  }
+
+  /** A handle has moved what it belongs to. */
+  #dragged(moved: ViewRegion | ({ kind: 'section' } & Section), phase: DragPhase): void {
+    if (moved.kind === 'section') {
+      this.#sectionDrag({ normal: moved.normal, offset: moved.offset }, phase);
+    } else if (this.#selected !== null) this.#regionDrag(this.#selected, moved, phase);
   }
 
   #click(x: number, y: number): void {

@@ -8,9 +8,15 @@ export type DrawMesh = {
   corners: Uint32Array;
 };
 
+/** A hex mesh to draw: three coordinates a node, eight nodes a hex. */
+export type DrawHexes = { nodes: Float64Array; hexes: Uint32Array };
+
+/** Cells of a hex mesh whose middle `m` lies beyond, `normal . m > offset`, are hidden. World coordinates, a unit normal. */
+export type Section = { normal: Vector; offset: number };
+
 export type ColourMap = 'viridis' | 'quality' | 'levels';
 
-/** How faces are coloured: all alike, or by one value each. NaN: no value (grey). */
+/** How faces, or cells of a hex mesh, are coloured: all alike, or by one value each. NaN: no value (grey). */
 export type Colouring =
   | { kind: 'plain' }
   | { kind: 'scalar'; values: Float32Array; range: [number, number]; map: ColourMap };
@@ -45,6 +51,25 @@ export interface View {
    * @throws {ViewError} The mesh is broken, or larger than the graphics driver allows.
    */
   setMesh(mesh: DrawMesh | null, options?: { keepCamera?: boolean }): void;
+  /** The same for a hex mesh, of which all is shown until it is cut. */
+  setHexes(mesh: DrawHexes, options?: { keepCamera?: boolean }): void;
+  /** Cuts the hex mesh open by a plane with a handle to drag, or not. */
+  setSection(section: Section | null): void;
+  onSectionDrag(callback: (section: Section, phase: DragPhase) => void): void;
+  /** Hides so many layers of cells of the hex mesh, from the boundary inwards. */
+  setPeel(layers: number): void;
+  /** How many layers the hex mesh has. */
+  layers(): number;
+  /** How many layers lie over a cell of the hex mesh. */
+  depthOf(cell: number): number;
+  /** Hides cells of the hex mesh whose value, one a cell, is out of range; null: none. */
+  setFilter(filter: { values: Float32Array; range: [number, number] } | null): void;
+  /** Outlines a cell of the hex mesh over all else, or none. */
+  mark(cell: number | null): void;
+  /** Draws the edges of a box, or none. */
+  setBox(box: { min: Vector; max: Vector } | null): void;
+  /** The direction in which the camera looks. */
+  forward(): Vector;
   setColouring(colouring: Colouring): void;
   setStyle(style: Partial<Style>): void;
   /** Draws regions as translucent solids, the selected one with handles to drag. */
@@ -52,9 +77,10 @@ export interface View {
   onRegionDrag(callback: (index: number, region: ViewRegion, phase: DragPhase) => void): void;
   /** Called when a click meets a region (its index) or none (null). */
   onRegionPick(callback: (index: number | null) => void): void;
-  /** Called when a click meets a face or none. A click that selects a region is not reported. */
+  /** Called when a click meets a face, or a cell of a hex mesh, or none. A click that selects a region is not reported. */
   onPick(callback: (hit: FaceHit | null) => void): void;
   frameAll(): void;
+  /** Flies to a face, or to a cell of the hex mesh. */
   frameFace(face: number): void;
   /** Turns the camera to look along an axis: '-z' is the view from above. */
   lookAlong(axis: Direction): void;

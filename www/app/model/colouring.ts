@@ -1,19 +1,20 @@
 /** Colours of cells: what the view is given, and the same colours for bars and legends. */
 
-import type { QuadMesh } from 'hexmill';
 import type { Colouring } from '../view.js';
 import type { Inspection } from './inspection.js';
+import { isHexes } from './job.js';
+import type { Cells } from './job.js';
 import type { MetricInfo } from './metrics.js';
 
-/** What the view is to colour `mesh` by. Cells outside the brushed range have no value and no colour. */
-export function colouring(mesh: QuadMesh, inspection: Inspection): Colouring {
+/** What the view is to colour `mesh` by. Quads outside the brushed range have no value and no colour; hexes are hidden. */
+export function colouring(mesh: Cells, inspection: Inspection): Colouring {
   const { colour, values, info, brush } = inspection;
   if (colour.value === 'level') {
     const values = Float32Array.from(mesh.level);
-    return { kind: 'scalar', values, range: [0, deepest(mesh)], map: 'levels' };
+    return { kind: 'scalar', values, range: levelRange(mesh), map: 'levels' };
   }
   if (colour.value !== 'quality' || !values.value) return { kind: 'plain' };
-  const range = brush.value ?? { low: Number.NEGATIVE_INFINITY, high: Number.POSITIVE_INFINITY };
+  const range = (isHexes(mesh) ? null : brush.value) ?? { low: Number.NEGATIVE_INFINITY, high: Number.POSITIVE_INFINITY };
   const places = values.value.map((v) => (v >= range.low && v <= range.high ? qualityPlace(info.value, v) : Number.NaN));
   return { kind: 'scalar', values: places, range: [0, 1], map: 'quality' };
 }
@@ -23,9 +24,16 @@ export function qualityPlace({ range: [low, high], worst }: MetricInfo, value: n
   return worst === 'low' ? (value - low) / (high - low) : (high - value) / (high - low);
 }
 
-/** The greatest level of the mesh, at least 1. */
-export function deepest(mesh: QuadMesh): number {
-  return mesh.level.reduce((most, level) => Math.max(most, level), 1);
+/** The levels that colours span, at least two. Of hexes the first is the least there is: where any are refined, all are. */
+export function levelRange(mesh: Cells): [number, number] {
+  const least = isHexes(mesh) ? mesh.level.reduce((low, level) => Math.min(low, level), 255) : 0;
+  return [least, mesh.level.reduce((most, level) => Math.max(most, level), least + 1)];
+}
+
+/** The colour of a level of the mesh. */
+export function levelColour(mesh: Cells, level: number): string {
+  const [low, high] = levelRange(mesh);
+  return mapColour('levels', (level - low) / (high - low));
 }
 
 type Stop = readonly [place: number, red: number, green: number, blue: number];

@@ -29,6 +29,17 @@ export const WRITABLE: readonly FormatInfo<OutputFormat>[] = [
   { format: 'glb', extension: 'glb', label: 'glTF', note: 'For viewing: quads become triangles' },
 ];
 
+/** Formats that hold hexes, or quads. GLB, which draws triangles, gets the boundary of hexes. */
+export function writable(hexes: boolean): readonly FormatInfo<OutputFormat>[] {
+  return hexes ? WRITABLE.filter(({ format }) => format !== 'obj').map((info) => ({ ...info, note: HEX_NOTES[info.format] ?? info.note })) : WRITABLE;
+}
+
+/** What differs for hexes. */
+const HEX_NOTES: Partial<Record<OutputFormat, string>> = {
+  inp: 'Input deck of C3D8 bricks: Abaqus, CalculiX',
+  glb: 'For viewing: the boundary alone',
+};
+
 /** For the file dialog. */
 export const ACCEPT = READABLE.map(({ extension }) => `.${extension}`).join(',');
 

@@ -1,12 +1,15 @@
 /** What the inspector looks at: a quality measure, a range of it, one cell, and the colours of all. */
 
 import { batch, computed, effect, signal } from '@preact/signals-core';
-import type { Metric } from 'hexmill';
+import type { ReadonlySignal } from '@preact/signals-core';
+import type { HexMetric, Metric } from 'hexmill';
 import { complaint } from './complaint.js';
-import { countBetween, histogramOf, isAcceptable, metricInfo, worstCells } from './metrics.js';
+import { isHexes } from './job.js';
+import type { Cells } from './job.js';
+import type { Colour } from './link.js';
+import { countBetween, histogramOf, isAcceptable, metricInfo, metricsOf, worstCells } from './metrics.js';
+import type { MetricInfo, MetricName } from './metrics.js';
 import type { Workbench } from './workbench.js';
-
-export type Colour = 'plain' | 'level' | 'quality';
 
 export interface Range {
   readonly low: number;
@@ -20,15 +23,17 @@ const BINS = 48;
 
 export class Inspection {
   readonly colour = signal<Colour>('plain');
-  readonly metric = signal<Metric>('scaledJacobian');
-  /** The measure of each quad of the result; null until it is there. */
+  readonly metric = signal<MetricName>('scaledJacobian');
+  /** The measure of each cell of the result; null until it is there. */
   readonly values = signal<Float32Array | null>(null);
   /** The brushed range; null: all. */
   readonly brush = signal<Range | null>(null);
   /** The cell that is looked at. */
   readonly cell = signal<number | null>(null);
 
-  readonly info = computed(() => metricInfo(this.metric.value));
+  /** What can be measured of the result's cells. */
+  readonly metrics: ReadonlySignal<readonly MetricInfo[]>;
+  readonly info = computed(() => metricInfo(this.metrics.value, this.metric.value));
   readonly histogram = computed(() => (this.values.value ? histogramOf(this.values.value, this.info.value, BINS) : null));
   readonly worst = computed<readonly number[]>(() => (this.values.value ? worstCells(this.values.value, this.info.value, WORST) : []));
   /** Where `cell` stands among the worst, from 0; null if it is none of them. */
@@ -47,21 +52,22 @@ export class Inspection {
   });
 
   constructor(workbench: Workbench) {
+    this.metrics = computed(() => {
+      const mesh = workbench.result.value?.mesh;
+      return metricsOf(mesh !== undefined && isHexes(mesh));
+    });
     effect(() => {
       const mesh = workbench.result.value?.mesh ?? null;
-      const metric = this.metric.value;
+      const { metric } = this.info.value;
       batch(() => {
         this.values.value = null;
         this.brush.value = null;
         this.cell.value = null;
       });
-      if (!mesh) {
-        this.colour.value = 'plain';
-        return;
-      }
-      mesh.qualityOf(metric).then(
+      if (!mesh) return;
+      measure(mesh, metric).then(
         (values) => {
-          if (workbench.result.peek()?.mesh === mesh && this.metric.peek() === metric) this.values.value = values;
+          if (workbench.result.peek()?.mesh === mesh && this.info.peek().metric === metric) this.values.value = values;
         },
         (error: unknown) => workbench.log.add('error', `No ${this.info.peek().label.toLowerCase()}: ${complaint(error).text}`),
       );
@@ -69,7 +75,7 @@ export class Inspection {
   }
 
   /** Looks at another metric and colours the cells by it. */
-  choose(metric: Metric): void {
+  choose(metric: MetricName): void {
     batch(() => {
       this.metric.value = metric;
       this.colour.value = 'quality';
@@ -84,6 +90,11 @@ export class Inspection {
     });
   }
 
+  /** Shows the cells of a range, in whatever colour they have; null: all. */
+  filter(range: Range | null): void {
+    this.brush.value = range;
+  }
+
   /** The next of the worst cells (or, with -1, the one before). */
   step(by: 1 | -1): number | null {
     const list = this.worst.value;
@@ -93,4 +104,9 @@ export class Inspection {
     this.cell.value = list[next] ?? null;
     return this.cell.value;
   }
+}
+
+/** `metric` is one of the mesh's own: see `metricsOf`. */
+function measure(mesh: Cells, metric: MetricName): Promise<Float32Array> {
+  return isHexes(mesh) ? mesh.qualityOf(metric as HexMetric) : mesh.qualityOf(metric as Metric);
 }

@@ -1,9 +1,12 @@
 import { describe, expect, test } from 'vitest';
+import { formatCut } from './cutting.js';
 import { formatCommand, formatLink, formatRegion, parseLink, parseRegion } from './link.js';
+import type { Entry } from './link.js';
 import { DEFAULTS, region } from './settings.js';
 import type { Settings } from './settings.js';
 
 const full: Settings = {
+  ...DEFAULTS,
   by: 'length',
   edgeLength: 0.05,
   levels: 1,
@@ -50,6 +53,51 @@ describe('links', () => {
   });
 });
 
+describe('links to hexes', () => {
+  const hexes: Settings = {
+    ...DEFAULTS,
+    job: 'hexes',
+    gradation: 1.5,
+    hexes: { ...DEFAULTS.hexes, spacing: 0.2, margin: 0.35, atSurface: 3, method: 'one', by: 'levels', levels: 1, maxLevels: 6, maxHexes: 400_000 },
+    regions: full.regions.slice(1, 2),
+  };
+
+  test('give the job back, and how the mesh is looked at', () => {
+    const view: Entry[] = [...formatCut({ section: { normal: [0, -1, 0], offset: 0.25 }, peel: 2 }), ['colour', 'level']];
+    const link = formatLink('spot', hexes, view);
+    expect(link).toBe(
+      'example=spot&job=hexes&spacing=0.2&margin=0.35&at-surface=3&method=one&levels=1&gradation=1.5&max-levels=6&max-hexes=400000' +
+        '&region=box:0,0,0,1,2,3:level=4&section=0,-1,0,0.25&peel=2&colour=level',
+    );
+    const linked = parseLink(link);
+    expect(bare({ ...DEFAULTS, ...linked?.settings, hexes: { ...DEFAULTS.hexes, ...linked?.settings.hexes } })).toEqual(bare(hexes));
+    expect(linked?.cut).toEqual({ section: { normal: [0, -1, 0], offset: 0.25 }, peel: 2 });
+    expect(linked?.colour).toBe('level');
+  });
+
+  test('that are wrong are read as far as they are right', () => {
+    const linked = parseLink('#example=spot&job=hexes&spacing=-1&margin=2&at-surface=99&method=four&section=0,0,0,1&peel=-3&colour=red');
+    expect(linked?.settings).toEqual({ job: 'hexes', hexes: { margin: 2 }, gradation: DEFAULTS.gradation, regions: [] });
+    expect(linked?.cut).toEqual({ section: null, peel: 0 });
+    expect(linked?.colour).toBe('plain');
+  });
+
+  test('of an edge length refine to it', () => {
+    const { settings } = parseLink(formatLink('spot', { ...hexes, hexes: { ...hexes.hexes, by: 'length', edgeLength: 0.05 } })) ?? {};
+    expect(settings?.hexes).toMatchObject({ by: 'length', edgeLength: 0.05 });
+  });
+
+  test('are two commands: a box, then its refinement', () => {
+    const surface = { name: 'spot.obj', holdsHexes: false };
+    expect(formatCommand(surface, 'out.vtu', { ...DEFAULTS, job: 'hexes' })).toBe(
+      'hexmill grid spot.obj -o box.vtu --spacing 1 --margin 1 && hexmill refine box.vtu -o out.vtu --region surface:spot.obj,0:level=2',
+    );
+    expect(formatCommand({ name: 'part.msh', holdsHexes: true }, 'out.vtu', { ...DEFAULTS, hexes: { ...DEFAULTS.hexes, method: 'two', levels: 2 } })).toBe(
+      'hexmill refine part.msh -o out.vtu --method two --levels 2',
+    );
+  });
+});
+
 describe('regions as text', () => {
   test.each(full.regions.map((r) => formatRegion(r)))('%s', (text) => expect(formatRegion(parseRegion(text) ?? region({ kind: 'sphere', center: [0, 0, 0], radius: 1 }, { by: 'level', level: 0 }))).toBe(text));
 
@@ -57,7 +105,7 @@ describe('regions as text', () => {
 });
 
 test('the command names files with spaces', () => {
-  expect(formatCommand("my model's.obj", 'out.vtu', { ...DEFAULTS, keepCoarse: true })).toBe(
+  expect(formatCommand({ name: "my model's.obj", holdsHexes: false }, 'out.vtu', { ...DEFAULTS, keepCoarse: true })).toBe(
     String.raw`hexmill refine 'my model'\''s.obj' -o out.vtu --edge-length 1 --keep-coarse`,
   );
 });

@@ -2,23 +2,45 @@
  * Settings as text: the page's link and the command line that makes the same mesh.
  *
  * A link is `#example=spot&edge-length=0.05&region=sphere:0,0,0,1:h=0.01`: the command line's options by
- * name, without their dashes. Only what differs from the defaults is written.
+ * name, without their dashes. Only what differs from the defaults is written. For hexes it begins with
+ * `#example=spot&job=hexes&spacing=0.2&margin=0.3&at-surface=2`; at the end stands how the mesh is looked at, such as
+ * `section=0,-1,0,0.25`: the normal and the offset of the plane that cuts it open.
  */
 
+import { parseCut } from './cutting.js';
+import type { Cut } from './cutting.js';
 import { DEFAULTS, LIMITS, region } from './settings.js';
-import type { Region, Settings, Shape, Target } from './settings.js';
+import type { HexSettings, Region, Settings, Shape, Target } from './settings.js';
 import { fault } from './shape.js';
 import { editable, parseNumber } from './text.js';
 
 /** What a link asks for. */
 export interface Linked {
   readonly example: string;
-  readonly settings: Partial<Settings>;
+  readonly settings: GivenSettings;
+  readonly cut: Cut;
+  readonly colour: Colour;
 }
 
-/** `[name, value]` of each option that differs from the defaults; a switch has the value ''. */
-function options(settings: Settings): [string, string][] {
-  const list: [string, string][] = [
+/** Settings of which some are left to what suits the model. */
+export type GivenSettings = Partial<Omit<Settings, 'hexes'>> & { readonly hexes?: Partial<HexSettings> };
+
+export type Colour = 'plain' | 'level' | 'quality';
+
+/** `[name, value]` of an option; a switch has the value ''. */
+export type Entry = [string, string];
+
+/** The methods of hexes by what they are called. */
+export const METHODS: readonly { method: HexSettings['method']; label: string; note: string }[] = [
+  { method: 'auto', label: 'Auto', note: 'Method II' },
+  { method: 'one', label: 'I', note: 'Method I: layer templates. The best shapes; more cells are refined' },
+  { method: 'two', label: 'II', note: 'Method II: a pillow and one template. Hardly more cells than asked for' },
+  { method: 'three', label: '3', note: '3-refinement: each level cuts edges in three' },
+];
+
+/** Each option of quads that differs from the defaults. */
+function quadOptions(settings: Settings): Entry[] {
+  const list: Entry[] = [
     settings.by === 'length' ? ['edge-length', editable(settings.edgeLength)] : ['levels', String(settings.levels)],
   ];
   if (settings.curvature !== null) list.push(['curvature', editable(settings.curvature)]);
@@ -26,41 +48,109 @@ function options(settings: Settings): [string, string][] {
   if (settings.keepCoarse) list.push(['keep-coarse', '']);
   if (settings.maxLevels !== DEFAULTS.maxLevels) list.push(['max-levels', String(settings.maxLevels)]);
   if (settings.maxQuads !== DEFAULTS.maxQuads) list.push(['max-quads', String(settings.maxQuads)]);
-  return list.concat(settings.regions.map((r): [string, string] => ['region', formatRegion(r)]));
+  return list.concat(regionOptions(settings));
 }
 
-/** The link's part after `#`. */
-export function formatLink(example: string, settings: Settings): string {
-  return [`example=${example}`, ...options(settings).map(([name, value]) => (value ? `${name}=${value}` : name))].join('&');
+function regionOptions({ regions }: Settings): Entry[] {
+  return regions.map((r): Entry => ['region', formatRegion(r)]);
 }
 
-/** The command that makes the same mesh from a terminal. */
-export function formatCommand(input: string, output: string, settings: Settings): string {
-  const words = options(settings).map(([name, value]) => (value ? `--${name} ${value}` : `--${name}`));
-  return ['hexmill refine', quoted(input), '-o', quoted(output), ...words].join(' ');
+/** Each option of refinement of hexes that differs from the defaults. */
+function hexOptions(settings: Settings): Entry[] {
+  const { hexes, gradation } = settings;
+  const usual = DEFAULTS.hexes;
+  const list: Entry[] = [];
+  if (hexes.method !== usual.method) list.push(['method', hexes.method]);
+  if (hexes.by === 'length') list.push(['edge-length', editable(hexes.edgeLength)]);
+  else if (hexes.levels > 0) list.push(['levels', String(hexes.levels)]);
+  if (gradation !== DEFAULTS.gradation) list.push(['gradation', editable(gradation)]);
+  if (hexes.maxLevels !== usual.maxLevels) list.push(['max-levels', String(hexes.maxLevels)]);
+  if (hexes.maxHexes !== usual.maxHexes) list.push(['max-hexes', String(hexes.maxHexes)]);
+  return list.concat(regionOptions(settings));
 }
+
+function boxOptions({ spacing, margin }: HexSettings): Entry[] {
+  return [['spacing', editable(spacing)], ['margin', editable(margin)]];
+}
+
+function options(settings: Settings): Entry[] {
+  if (settings.job === 'quads') return quadOptions(settings);
+  const { hexes } = settings;
+  return [['job', 'hexes'], ...boxOptions(hexes), ['at-surface', String(hexes.atSurface)], ...hexOptions(settings)];
+}
+
+/** The link's part after `#`; `view` says how the mesh is looked at. */
+export function formatLink(example: string, settings: Settings, view: readonly Entry[] = []): string {
+  return [`example=${example}`, ...[...options(settings), ...view].map(([name, value]) => (value ? `${name}=${value}` : name))].join('&');
+}
+
+/** The command that makes the same mesh from a terminal. `input` holds hexes or a surface. */
+export function formatCommand(input: { name: string; holdsHexes: boolean }, output: string, settings: Settings): string {
+  const command = (verb: string, from: string, to: string, list: Entry[]): string =>
+    [`hexmill ${verb}`, quoted(from), '-o', quoted(to), ...list.map(([name, value]) => (value ? `--${name} ${value}` : `--${name}`))].join(' ');
+  const { name, holdsHexes } = input;
+  if (holdsHexes) return command('refine', name, output, hexOptions(settings));
+  if (settings.job === 'quads') return command('refine', name, output, quadOptions(settings));
+  const { hexes } = settings;
+  const surface: Entry[] = hexes.atSurface > 0 ? [['region', quoted(`surface:${name},0:level=${hexes.atSurface}`)]] : [];
+  return `${command('grid', name, BOX, boxOptions(hexes))} && ${command('refine', BOX, output, [...hexOptions(settings), ...surface])}`;
+}
+
+/** The file between the two commands that make hexes around a surface. */
+const BOX = 'box.vtu';
 
 /** Reads a link's part after `#`; null if it names no example. What it says wrongly is left at its default. */
 export function parseLink(hash: string): Linked | null {
   const entries = new URLSearchParams(hash.replace(/^#/, ''));
   const example = entries.get('example');
   if (!example) return null;
-  const settings: { -readonly [K in keyof Settings]?: Settings[K] } = {};
   const number = (name: string, low: number, high: number): number | null => {
     const value = parseNumber(entries.get(name) ?? '');
     return value === null || value < low || value > high ? null : value;
   };
+  const regions = entries.getAll('region').flatMap((text) => parseRegion(text) ?? []);
+  const gradation = number('gradation', LIMITS.gradation.min, LIMITS.gradation.max) ?? DEFAULTS.gradation;
+  const settings =
+    entries.get('job') === 'hexes' ? { job: 'hexes' as const, hexes: parseHexes(entries, number) } : parseQuads(entries, number);
+  const colour = COLOURS.find((known) => known === entries.get('colour')) ?? 'plain';
+  return { example, settings: { ...settings, gradation, regions }, cut: parseCut(entries), colour };
+}
+
+const COLOURS: readonly Colour[] = ['plain', 'level', 'quality'];
+
+/** A number of the link within bounds; null if there is none. */
+type Numbers = (name: string, low: number, high: number) => number | null;
+
+function parseQuads(entries: URLSearchParams, number: Numbers): GivenSettings {
+  const settings: { -readonly [K in keyof GivenSettings]?: GivenSettings[K] } = {};
   const edgeLength = number('edge-length', Number.MIN_VALUE, Number.MAX_VALUE);
   if (edgeLength !== null) Object.assign(settings, { by: 'length', edgeLength });
   const levels = number('levels', LIMITS.levels.min, LIMITS.levels.max);
   if (levels !== null) Object.assign(settings, { by: 'levels', levels: Math.round(levels) });
   settings.curvature = number('curvature', LIMITS.curvature.min, LIMITS.curvature.max);
-  settings.gradation = number('gradation', LIMITS.gradation.min, LIMITS.gradation.max) ?? DEFAULTS.gradation;
   settings.keepCoarse = entries.has('keep-coarse');
   settings.maxLevels = number('max-levels', LIMITS.levels.min, LIMITS.levels.max) ?? DEFAULTS.maxLevels;
   settings.maxQuads = number('max-quads', LIMITS.maxQuads.min, LIMITS.maxQuads.max) ?? DEFAULTS.maxQuads;
-  settings.regions = entries.getAll('region').flatMap((text) => parseRegion(text) ?? []);
-  return { example, settings };
+  return settings;
+}
+
+function parseHexes(entries: URLSearchParams, number: Numbers): Partial<HexSettings> {
+  const [least, most] = [Number.MIN_VALUE, Number.MAX_VALUE];
+  const { min, max } = LIMITS.hexLevels;
+  const whole = (value: number | null): number | null => (value === null ? null : Math.round(value));
+  const edgeLength = number('edge-length', least, most);
+  const given = {
+    spacing: number('spacing', least, most),
+    margin: number('margin', 0, most),
+    atSurface: whole(number('at-surface', min, max)),
+    method: METHODS.find(({ method }) => method === entries.get('method'))?.method ?? null,
+    by: edgeLength === null ? null : ('length' as const),
+    edgeLength,
+    levels: whole(number('levels', min, max)),
+    maxLevels: whole(number('max-levels', min, max)),
+    maxHexes: number('max-hexes', LIMITS.maxHexes.min, LIMITS.maxHexes.max),
+  };
+  return Object.fromEntries(Object.entries(given).filter(([, value]) => value !== null)) as Partial<HexSettings>;
 }
 
 /** `sphere:0,0,0,1:h=0.1`, as the command line takes it. */
@@ -109,5 +199,5 @@ function targetOf(named: Map<string, string>): Target | null {
 }
 
 function quoted(name: string): string {
-  return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", String.raw`'\''`)}'`;
+  return /^[\w.,:=/-]+$/.test(name) ? name : `'${name.replaceAll("'", String.raw`'\''`)}'`;
 }

@@ -1,19 +1,22 @@
 import { expect, test } from 'vitest';
-import { countBetween, histogramOf, levelCounts, metricInfo, worstCells } from './metrics.js';
+import { countBetween, histogramOf, levelCounts, metricInfo, metricsOf, worstCells } from './metrics.js';
+import type { MetricInfo, MetricName } from './metrics.js';
 import { mapColour, qualityPlace } from './colouring.js';
+
+const of = (metric: MetricName): MetricInfo => metricInfo(metricsOf(false), metric);
 
 test('worst cells come worst first, equal ones in the order of the mesh', () => {
   const values = Float32Array.of(0.9, 0.2, 0.5, 0.2, 1, -1);
-  expect(worstCells(values, metricInfo('scaledJacobian'), 3)).toEqual([5, 1, 3]);
-  expect(worstCells(values, metricInfo('aspect'), 2)).toEqual([4, 0]);
-  expect(worstCells(values, metricInfo('minAngle'), 10)).toEqual([5, 1, 3, 2, 0, 4]);
+  expect(worstCells(values, of('scaledJacobian'), 3)).toEqual([5, 1, 3]);
+  expect(worstCells(values, of('aspect'), 2)).toEqual([4, 0]);
+  expect(worstCells(values, of('minAngle'), 10)).toEqual([5, 1, 3, 2, 0, 4]);
 });
 
 test('worst cells agree with a full sort', () => {
   let state = 1;
   const values = Float32Array.from({ length: 5000 }, () => (state = (state * 48271) % 2147483647) / 2147483647);
   const sorted = Array.from(values.keys()).sort((a, b) => (values[a] ?? 0) - (values[b] ?? 0) || a - b);
-  expect(worstCells(values, metricInfo('scaledJacobian'), 100)).toEqual(sorted.slice(0, 100));
+  expect(worstCells(values, of('scaledJacobian'), 100)).toEqual(sorted.slice(0, 100));
 });
 
 test('counts', () => {
@@ -22,16 +25,16 @@ test('counts', () => {
 });
 
 test('the bad end of every measure has the same colour', () => {
-  expect(mapColour('quality', qualityPlace(metricInfo('scaledJacobian'), -1))).toBe('rgb(140 10 40)');
-  expect(mapColour('quality', qualityPlace(metricInfo('maxAngle'), 180))).toBe('rgb(140 10 40)');
-  expect(mapColour('quality', qualityPlace(metricInfo('aspect'), 1))).toBe('rgb(74 144 200)');
+  expect(mapColour('quality', qualityPlace(of('scaledJacobian'), -1))).toBe('rgb(140 10 40)');
+  expect(mapColour('quality', qualityPlace(of('maxAngle'), 180))).toBe('rgb(140 10 40)');
+  expect(mapColour('quality', qualityPlace(of('aspect'), 1))).toBe('rgb(74 144 200)');
   expect(mapColour('levels', 0.5)).toBe('rgb(131 114 209)');
 });
 
 test('histograms count every value, over a range that holds the usual ones', () => {
-  const jacobian = histogramOf(Float32Array.of(0, 0.26, 0.5, 1), metricInfo('scaledJacobian'), 4);
+  const jacobian = histogramOf(Float32Array.of(0, 0.26, 0.5, 1), of('scaledJacobian'), 4);
   expect(jacobian).toEqual({ min: 0, max: 1, counts: [1, 1, 1, 1] });
-  expect(histogramOf(Float32Array.of(-1, 1), metricInfo('scaledJacobian'), 2)).toEqual({ min: -1, max: 1, counts: [1, 1] });
-  expect(histogramOf(Float32Array.of(1, 3), metricInfo('aspect'), 2)).toEqual({ min: 1, max: 3, counts: [1, 1] });
-  expect(histogramOf(Float32Array.of(1, 1), metricInfo('aspect'), 2).counts).toEqual([2, 0]);
+  expect(histogramOf(Float32Array.of(-1, 1), of('scaledJacobian'), 2)).toEqual({ min: -1, max: 1, counts: [1, 1] });
+  expect(histogramOf(Float32Array.of(1, 3), of('aspect'), 2)).toEqual({ min: 1, max: 3, counts: [1, 1] });
+  expect(histogramOf(Float32Array.of(1, 1), of('aspect'), 2).counts).toEqual([2, 0]);
 });

@@ -1,16 +1,18 @@
-/** Quality measures of quads: names, units, and what is acceptable. */
+/** Quality measures of quads and hexes: names, units, and what is acceptable. */
 
-import type { Metric } from 'hexmill';
+import type { HexMetric, Metric } from 'hexmill';
+
+export type MetricName = Metric | Exclude<HexMetric, 'volume'>;
 
 export interface MetricInfo {
-  readonly metric: Metric;
+  readonly metric: MetricName;
   readonly label: string;
   /** Shown after figures. */
   readonly unit: '' | '°';
   readonly decimals: number;
   /** Whether small values are the bad ones. */
   readonly worst: 'low' | 'high';
-  /** The value of a square. */
+  /** The value of a square or cube. */
   readonly ideal: number;
   /** The bound that acceptable cells keep. */
   readonly acceptable: number;
@@ -23,7 +25,7 @@ export interface MetricInfo {
  * Acceptable ranges: the Verdict library's reference manual (Sandia, SAND2007-1751) for the scaled Jacobian and
  * the angles; for the aspect ratio the Cubit manual's 1 to 4.
  */
-export const METRICS: readonly MetricInfo[] = [
+const OF_QUADS: readonly MetricInfo[] = [
   {
     metric: 'scaledJacobian', label: 'Scaled Jacobian', unit: '', decimals: 3, worst: 'low', ideal: 1, acceptable: 0.3, range: [0, 1],
     says: 'Least corner Jacobian over the lengths of its edges. 1 is a rectangle, 0 or less is degenerate.',
@@ -42,8 +44,27 @@ export const METRICS: readonly MetricInfo[] = [
   },
 ];
 
-export function metricInfo(metric: Metric): MetricInfo {
-  const found = METRICS.find((info) => info.metric === metric);
+/** Acceptable ranges: as above; of a hex's scaled Jacobian the manual's own, which is narrower than that of quads. */
+const OF_HEXES: readonly MetricInfo[] = [
+  {
+    metric: 'scaledJacobian', label: 'Scaled Jacobian', unit: '', decimals: 3, worst: 'low', ideal: 1, acceptable: 0.5, range: [0, 1],
+    says: 'Least corner Jacobian over the lengths of its edges. 1 is a box, 0 or less is degenerate.',
+  },
+  {
+    metric: 'aspect', label: 'Aspect ratio', unit: '', decimals: 2, worst: 'high', ideal: 1, acceptable: 4, range: [1, 8],
+    says: 'Longest edge over shortest edge.',
+  },
+];
+
+/** What is measured of quads or of hexes. */
+export function metricsOf(hexes: boolean): readonly MetricInfo[] {
+  return hexes ? OF_HEXES : OF_QUADS;
+}
+
+/** What is known of `metric`; of the first of `metrics` if it is none of them. */
+export function metricInfo(metrics: readonly MetricInfo[], metric: MetricName): MetricInfo {
+  const [first] = metrics;
+  const found = metrics.find((info) => info.metric === metric) ?? first;
   if (!found) throw new RangeError(`no metric ${metric}`);
   return found;
 }

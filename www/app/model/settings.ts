@@ -1,7 +1,7 @@
 /** What the page asks of the mesher: everything that undo, the link and the command line carry. */
 
-import { MOST_QUADS } from 'hexmill';
-import type { QuadOptions, Region as RegionOption } from 'hexmill';
+import { MOST_HEXES, MOST_QUADS } from 'hexmill';
+import type { HexOptions, Method, QuadOptions, Region as RegionOption } from 'hexmill';
 import type { ViewRegion } from '../view.js';
 
 export type Vec3 = [number, number, number];
@@ -18,7 +18,27 @@ export interface Region {
   readonly target: Target;
 }
 
+/** What is made of a surface: quads on it, or hexes in a box around it. */
+export type Job = 'quads' | 'hexes';
+
+/** What is asked of hexes alone. Lengths in model units. */
+export interface HexSettings {
+  /** The edge length of the cubes of the box, and how far it reaches beyond the surface. */
+  readonly spacing: number;
+  readonly margin: number;
+  /** How many times cells that the surface passes are refined; 0: not. */
+  readonly atSurface: number;
+  readonly method: Method;
+  readonly by: Settings['by'];
+  readonly edgeLength: number;
+  readonly levels: number;
+  readonly maxLevels: number;
+  readonly maxHexes: number;
+}
+
 export interface Settings {
+  readonly job: Job;
+  readonly hexes: HexSettings;
   /** What sizes the whole mesh: a length, or a number of refinements. The other value is kept for switching back. */
   readonly by: 'length' | 'levels';
   /** Model units. */
@@ -38,9 +58,23 @@ export const LIMITS = {
   curvature: { min: 1, max: 90, usual: 15 },
   gradation: { min: 1.05, max: 2 },
   maxQuads: { min: 1_000, max: MOST_QUADS },
+  hexLevels: { min: 0, max: 8 },
+  maxHexes: { min: 1_000, max: MOST_HEXES },
 } as const;
 
 export const DEFAULTS: Settings = {
+  job: 'quads',
+  hexes: {
+    spacing: 1,
+    margin: 1,
+    atSurface: 2,
+    method: 'auto',
+    by: 'levels',
+    edgeLength: 1,
+    levels: 0,
+    maxLevels: 8,
+    maxHexes: MOST_HEXES,
+  },
   by: 'length',
   edgeLength: 1,
   levels: 1,
@@ -70,6 +104,18 @@ export function toOptions(settings: Settings): QuadOptions {
     keepCoarse: settings.keepCoarse,
     maxLevels: settings.maxLevels,
     maxQuads: settings.maxQuads,
+  };
+}
+
+/** The options of hexes for `settings`, with what else there is to refine at. */
+export function toHexOptions({ hexes, regions, gradation }: Settings, more: readonly RegionOption[] = []): HexOptions {
+  return {
+    ...(hexes.by === 'length' ? { edgeLength: hexes.edgeLength } : { levels: hexes.levels }),
+    method: hexes.method,
+    regions: [...regions.map(toRegionOption), ...more],
+    gradation,
+    maxLevels: hexes.maxLevels,
+    maxHexes: hexes.maxHexes,
   };
 }
 

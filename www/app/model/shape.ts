@@ -14,6 +14,16 @@ export const SHAPES: readonly { kind: ShapeKind; label: string }[] = [
   { kind: 'cylinder', label: 'Cylinder' },
 ];
 
+/** The box of cubes, `spacing` long, that holds `bounds` with `margin` around it, as the mesher makes it. */
+export function grown({ min, max }: Bounds, { spacing, margin }: { readonly spacing: number; readonly margin: number }): Bounds {
+  const half = min.map((low, i) => {
+    const size = (max[i] ?? low) - low + 2 * margin;
+    return (Math.max(1, Math.ceil(size / spacing - 1e-9)) * spacing) / 2;
+  });
+  const middle = center({ min, max });
+  return { min: middle.map((x, i) => x - (half[i] ?? 0)) as Vec3, max: middle.map((x, i) => x + (half[i] ?? 0)) as Vec3 };
+}
+
 /** A new shape's radius, as a part of the model's diagonal. */
 const NEW_RADIUS = 0.12;
 

@@ -55,6 +55,10 @@ const DOING: Readonly<Record<string, string>> = {
   refine: 'refining',
   balance: 'balancing levels',
   templates: 'joining levels',
+  close: 'closing families',
+  pillow: 'making layers',
+  untangling: 'untangling transitions',
+  smoothing: 'smoothing transitions',
 };
 
 /** What is being done in a stage of the work. */

@@ -4,31 +4,29 @@
  */
 
 import { batch, computed, effect, signal } from '@preact/signals-core';
-import type { Estimate, OutputFormat, Mesher, QuadMesh, Surface } from 'hexmill';
+import { HexMesh } from 'hexmill';
+import type { Mesher, OutputFormat } from 'hexmill';
 import { complaint } from './complaint.js';
 import type { Complaint } from './complaint.js';
 import type { Example } from './examples.js';
 import { stem, WRITABLE } from './formats.js';
 import { History } from './history.js';
 import { debounced, Latest } from './latest.js';
+import { DEFAULT_FINENESS, fitting } from './fitting.js';
+import { countedCells, exported, inputOf, makesHexes, Maker } from './job.js';
+import type { Cells, Forecast, Input } from './job.js';
 import { formatLink } from './link.js';
+import type { Entry, GivenSettings } from './link.js';
 import { Log } from './log.js';
-import { DEFAULTS, region, toOptions } from './settings.js';
-import type { Region, Settings, Shape, ShapeKind, Vec3 } from './settings.js';
+import { DEFAULTS, region } from './settings.js';
+import type { HexSettings, Job, Region, Settings, Shape, ShapeKind, Vec3 } from './settings.js';
 import { center, diagonal, extent, fault, newShape, tidy, translated } from './shape.js';
 import type { Bounds } from './shape.js';
 import { bytes, counted, doing, duration, rounded } from './text.js';
 
-/** The model that is loaded. */
-export interface Input {
-  readonly name: string;
-  readonly example: Example | null;
-  readonly surface: Surface;
-}
-
 /** A finished mesh with what made it. */
 export interface Result {
-  readonly mesh: QuadMesh;
+  readonly mesh: Cells;
   readonly input: Input;
   readonly settings: Settings;
   readonly milliseconds: number;
@@ -43,11 +41,9 @@ export interface Running {
   readonly since: number;
 }
 
-/** Default edge length as a part of the model's diagonal. */
-const DEFAULT_FINENESS = 1 / 60;
 const ESTIMATE_DELAY = 120;
-/** Live meshing stops above this many quads. */
-export const LIVE_QUADS = 400_000;
+/** Live meshing stops above this many cells: hexes take longer, as their transitions are smoothed. */
+const LIVE = { quad: 400_000, hex: 5_000 } as const;
 
 export class Workbench {
   readonly log = new Log();
@@ -55,7 +51,7 @@ export class Workbench {
   readonly settings = signal<Settings>(DEFAULTS);
   /** Id of the region that has handles. */
   readonly selected = signal<number | null>(null);
-  readonly estimate = signal<Estimate | null>(null);
+  readonly estimate = signal<Forecast | null>(null);
   readonly #estimated = signal<Settings | null>(null);
   /** Whether the estimate is of the settings as they now are. */
   readonly isEstimated = computed(() => this.estimate.value !== null && this.#estimated.value === this.settings.value);
@@ -80,7 +76,8 @@ export class Workbench {
   readonly canRedo = signal(false);
 
   readonly bounds = computed<Bounds | null>(() => {
-    const info = this.input.value?.surface.info;
+    const input = this.input.value;
+    const info = (input?.surface ?? input?.hexes)?.info;
     return info ? { min: info.bounds.min as Vec3, max: info.bounds.max as Vec3 } : null;
   });
   /** The first thing in the settings that no mesh can be made with. */
@@ -91,6 +88,10 @@ export class Workbench {
     }
     return null;
   });
+  /** Whether hexes are made. */
+  readonly makesHexes = computed(() => this.input.value !== null && makesHexes(this.input.value, this.settings.value));
+  /** The most cells that are made live. */
+  readonly liveLimit = computed(() => LIVE[this.makesHexes.value ? 'hex' : 'quad']);
   /** Whether the result is of the input and the settings as they now are. */
   readonly isCurrent = computed(() => {
     const result = this.result.value;
@@ -98,12 +99,14 @@ export class Workbench {
   });
 
   readonly mesher: Promise<Mesher>;
+  readonly #maker: Maker;
   readonly #history = new History<Settings>();
   readonly #work = new Latest();
   readonly #estimates = new Latest();
 
   constructor(mesher: Promise<Mesher>) {
     this.mesher = mesher;
+    this.#maker = new Maker(mesher);
     mesher.then(
       (ready) => {
         this.threads.value = ready.threads;
@@ -122,22 +125,24 @@ export class Workbench {
 
   // ---- input
 
-  /** Reads a model. If it cannot be read, what was loaded stays. */
-  async load(name: string, content: () => Promise<ArrayBuffer>, example: Example | null = null, settings: Partial<Settings> = {}): Promise<void> {
+  /** Reads a model. If it cannot be read, what was loaded stays. Hexes are shown with their quality at once. */
+  async load(name: string, content: () => Promise<ArrayBuffer>, example: Example | null = null, settings: GivenSettings = {}): Promise<void> {
     this.trouble.input.value = null;
     try {
-      const surface = await this.#busy('reading', async (signal) => {
+      const model = await this.#busy('reading', async (signal) => {
         const mesher = await this.mesher;
-        return await mesher.load(await content(), { name, signal });
+        return await mesher.loadFile(await content(), { name, signal });
       });
-      if (surface === null) return;
+      if (model === null) return;
       batch(() => {
-        this.input.value = { name, example, surface };
-        this.settings.value = fitting(surface, settings);
+        this.input.value = inputOf(name, example, model);
+        this.settings.value = fitting(model, settings);
         this.#forget();
       });
-      this.log.add('info', `Read ${name}: ${counted(surface.info.faces, 'face')}, ${counted(surface.info.nodes, 'node')}.`);
-      for (const defect of surface.info.defects) this.log.add('warning', `${name}: ${defect}`);
+      const cells = model instanceof HexMesh ? counted(model.info.hexes, 'hex', 'hexes') : counted(model.info.faces, 'face');
+      this.log.add('info', `Read ${name}: ${cells}, ${counted(model.info.nodes, 'node')}.`);
+      for (const defect of model.info.defects) this.log.add('warning', `${name}: ${defect}`);
+      if (model instanceof HexMesh) await this.mesh();
     } catch (error) {
       const problem = complaint(error);
       this.trouble.input.value = { ...problem, about: name };
@@ -146,7 +151,7 @@ export class Workbench {
   }
 
   /** Loads an example that ships with the page, from `url`. */
-  async loadExample(example: Example, url: string, settings: Partial<Settings> = {}): Promise<void> {
+  async loadExample(example: Example, url: string, settings: GivenSettings = {}): Promise<void> {
     await this.load(
       example.file,
       async () => {
@@ -182,6 +187,15 @@ export class Workbench {
     this.#syncHistory();
   }
 
+  editHexes(change: Partial<HexSettings>): void {
+    this.edit({ hexes: { ...this.settings.value.hexes, ...change } }, `hexes ${Object.keys(change).join()}`);
+  }
+
+  /** Chooses what is made of the surface. */
+  choose(job: Job): void {
+    this.edit({ job });
+  }
+
   undo(): void {
     this.settings.value = this.#history.undo(this.settings.value);
     this.#syncHistory();
@@ -204,10 +218,17 @@ export class Workbench {
   addRegion(kind: ShapeKind): void {
     const bounds = this.bounds.value;
     if (!bounds) return;
-    const settings = this.settings.value;
-    const size = rounded((settings.by === 'length' ? settings.edgeLength : diagonal(bounds) * DEFAULT_FINENESS) / 4);
+    const size = rounded(this.usualEdge() / 4);
     const shape = newShape(kind, this.pickedPoint.value ?? center(bounds), bounds);
     this.#append(region(shape, { by: 'size', size }));
+  }
+
+  /** How long edges are where nothing asks for shorter ones, or would be by default. */
+  usualEdge(): number {
+    const { hexes, by, edgeLength } = this.settings.value;
+    const bounds = this.bounds.value;
+    if (this.makesHexes.value) return this.input.value?.hexes?.info.meanEdge ?? hexes.spacing;
+    return by === 'length' || !bounds ? edgeLength : diagonal(bounds) * DEFAULT_FINENESS;
   }
 
   duplicateRegion(id: number): void {
@@ -246,10 +267,8 @@ export class Workbench {
     const input = this.input.value;
     if (!input || this.fault.value) return this.#estimates.cancel();
     try {
-      const mesher = await this.mesher;
       const settings = this.settings.value;
-      const options = toOptions(settings);
-      const estimate = await this.#estimates.run((signal) => mesher.estimateQuads(input.surface, { ...options, signal }));
+      const estimate = await this.#estimates.run((signal) => this.#maker.foretell(input, settings, signal));
       if (!estimate) return;
       batch(() => {
         this.estimate.value = estimate;
@@ -267,7 +286,7 @@ export class Workbench {
 
   #remesh(): void {
     const estimate = this.estimate.value;
-    if (this.live.value && !this.isCurrent.value && estimate && estimate.quads <= LIVE_QUADS) void this.mesh();
+    if (this.live.value && !this.isCurrent.value && estimate && estimate.cells <= this.liveLimit.value) void this.mesh();
   }
 
   /** Makes the mesh; a later call overtakes an earlier one, and what was meshed before stays until then. */
@@ -278,10 +297,7 @@ export class Workbench {
     this.trouble.mesh.value = null;
     const started = performance.now();
     try {
-      const mesh = await this.#busy('meshing', async (signal, onProgress) => {
-        const mesher = await this.mesher;
-        return await mesher.refineQuads(input.surface, { ...toOptions(settings), signal, onProgress });
-      });
+      const mesh = await this.#busy('meshing', (signal, onProgress) => this.#maker.make(input, settings, { signal, onProgress }));
       if (mesh === null) return;
       const milliseconds = performance.now() - started;
       batch(() => {
@@ -289,7 +305,7 @@ export class Workbench {
         this.shows.value = 'mesh';
         this.trouble.output.value = null;
       });
-      const size = `${counted(mesh.quads.length / 4, 'quad')}, ${counted(mesh.nodes.length / 3, 'node')}`;
+      const size = `${countedCells(mesh)}, ${counted(mesh.nodes.length / 3, 'node')}`;
       this.log.add('info', `Meshed ${input.name} in ${duration(milliseconds)}: ${size}, hash ${mesh.hash}.`);
       for (const defect of mesh.defects) this.log.add('warning', defect);
     } catch (error) {
@@ -318,7 +334,7 @@ export class Workbench {
     if (!result || !known) return null;
     this.trouble.output.value = null;
     try {
-      const content = await this.#busy('writing', (signal) => result.mesh.export(format, { signal }));
+      const content = await this.#busy('writing', (signal) => exported(result.mesh, format, signal));
       if (content === null) return null;
       const name = `${stem(result.input.name)}.${known.extension}`;
       this.log.add('info', `Wrote ${name}: ${bytes(content.byteLength)}.`);
@@ -331,10 +347,10 @@ export class Workbench {
     }
   }
 
-  /** The link that makes this job again; null unless the input is an example. */
-  link(): string | null {
+  /** The link that makes this job again and shows it so; null unless the input is an example. */
+  link(view: readonly Entry[] = []): string | null {
     const example = this.input.value?.example;
-    return example ? `#${formatLink(example.id, this.settings.value)}` : null;
+    return example ? `#${formatLink(example.id, this.settings.value, view)}` : null;
   }
 
   async #busy<T>(what: Running['what'], work: (signal: AbortSignal, onProgress: (p: { stage: string; fraction: number }) => void) => Promise<T>): Promise<T | null> {
@@ -355,11 +371,4 @@ export class Workbench {
       if (this.running.value === shown) this.running.value = null;
     }
   }
-}
-
-/** The defaults for a model, overruled by `settings`. */
-function fitting(surface: Surface, settings: Partial<Settings>): Settings {
-  const { min, max } = surface.info.bounds;
-  const length = diagonal({ min: min as Vec3, max: max as Vec3 }) || surface.info.longestEdge || 1;
-  return { ...DEFAULTS, edgeLength: rounded(length * DEFAULT_FINENESS), ...settings };
 }

@@ -4,7 +4,6 @@ import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { complaintNote, iconButton, select } from './controls.js';
 import type { Page } from './page.js';
-import { WRITABLE } from '../model/formats.js';
 
 export function exportStep(page: Page): TemplateResult {
   const { workbench } = page;
@@ -14,9 +13,9 @@ export function exportStep(page: Page): TemplateResult {
     <div class="row export">
       ${select(
         'Export format',
-        WRITABLE.map(({ format, label, extension, note }) => ({ value: format, label: `${extension.toUpperCase()}, ${label}`, note })),
+        page.formats.value.map(({ format, label, extension, note }) => ({ value: format, label: `${extension.toUpperCase()}, ${label}`, note })),
         page.exportFormat.value,
-        (format) => (page.exportFormat.value = format),
+        (format) => (page.chosenFormat.value = format),
       )}
       <button class="button" id="export" type="button" ?disabled=${!hasResult} @click=${() => void page.download()}>Export</button>
       ${iconButton({ icon: 'link', label: 'Copy a link that opens this example with these settings', disabled: !input?.example, press: () => void page.copyLink() })}

@@ -2,6 +2,10 @@
 
 import { effect } from '@preact/signals-core';
 import type { Page } from './page.js';
+import { debounced } from '../model/latest.js';
+
+/** Milliseconds. */
+const ADDRESS_DELAY = 120;
 
 export function listen(page: Page): void {
   listenToDrops(page);
@@ -51,10 +55,11 @@ function key(page: Page, event: KeyboardEvent): void {
 
 /** The address always holds the link of what is shown, so that copying it is sharing it. */
 function followSettings(page: Page): void {
+  // Browsers take it amiss if the address changes as often as a handle moves.
+  const write = debounced(() => history.replaceState(null, '', page.link() ?? `${location.pathname}${location.search}`), ADDRESS_DELAY);
   effect(() => {
-    if (!page.workbench.input.value) return;
-    const link = page.workbench.link();
-    history.replaceState(null, '', link ?? `${location.pathname}${location.search}`);
+    page.link();
+    if (page.workbench.input.value) write();
   });
 }
 

@@ -2,19 +2,20 @@
 
 import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
-import { complaintNote, select } from './controls.js';
+import { complaintNote, segmented, select } from './controls.js';
 import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { EXAMPLES } from '../model/examples.js';
 import { ACCEPT } from '../model/formats.js';
 import { count, significant } from '../model/text.js';
-import type { Input } from '../model/workbench.js';
-import type { SurfaceInfo } from 'hexmill';
+import type { Input } from '../model/job.js';
+import type { HexMesh, Surface, SurfaceInfo } from 'hexmill';
 
 export function inputStep(page: Page): TemplateResult {
   const input = page.workbench.input.value;
   return html`
     ${input ? inputSummary(input) : html`<p class="hint">Drop a mesh anywhere on the page, choose a file, or start from an example. Files stay on your machine.</p>`}
+    ${input?.surface ? job(page) : nothing}
     ${complaintNote(page.workbench.trouble.input.value)}
     <div class="row">
       ${filePicker(page, input ? 'Open another…' : 'Choose a file…')}
@@ -25,6 +26,16 @@ export function inputStep(page: Page): TemplateResult {
         (id) => id && page.openExample(id),
       )}
     </div>`;
+}
+
+/** What is made of a surface. */
+function job({ workbench }: Page): TemplateResult {
+  return segmented(
+    'Make',
+    [{ value: 'quads', label: 'Quads on it' }, { value: 'hexes', label: 'Hexes around it' }],
+    workbench.settings.value.job,
+    (choice) => workbench.choose(choice),
+  );
 }
 
 /** The button that opens the file dialog. */
@@ -41,22 +52,39 @@ export function filePicker(page: Page, label: string): TemplateResult {
   </label>`;
 }
 
-function inputSummary({ name, example, surface }: Input): TemplateResult {
-  const { info } = surface;
-  const size = info.bounds.max.map((high, axis) => significant(high - (info.bounds.min[axis] ?? 0), 3));
+function inputSummary({ name, example, surface, hexes }: Input): TemplateResult {
+  const defects = (surface ?? hexes)?.info.defects ?? [];
   return html`
     <p class="file-name" title=${name}>${icon('file')}<span>${name}</span></p>
-    <dl class="facts">
-      <dt>Faces</dt><dd>${count(info.faces)}<small>${kinds(info)}</small></dd>
-      <dt>Nodes</dt><dd>${count(info.nodes)}</dd>
-      <dt>Size</dt><dd>${size.join(' × ')}</dd>
-      <dt>Edges</dt><dd>${significant(info.meanEdge, 3)} mean<small>${significant(info.longestEdge, 3)} longest</small></dd>
-      <dt>Surface</dt><dd>${closure(info)}<small>${pieces(info)}</small></dd>
-    </dl>
-    ${info.defects.length > 0 ? defectList(info.defects) : nothing}
+    ${surface ? surfaceFacts(surface) : hexes ? hexFacts(hexes) : nothing}
+    ${defects.length > 0 ? defectList(defects) : nothing}
     ${example
       ? html`<p class="credit">${example.by}. ${example.licence}. <a href=${example.source} target="_blank" rel="noopener">Source</a></p>`
       : nothing}`;
+}
+
+function surfaceFacts({ info }: Surface): TemplateResult {
+  return html`<dl class="facts">
+    <dt>Faces</dt><dd>${count(info.faces)}<small>${kinds(info)}</small></dd>
+    <dt>Nodes</dt><dd>${count(info.nodes)}</dd>
+    ${extents(info)}
+    <dt>Surface</dt><dd>${closure(info)}<small>${pieces(info.components)}</small></dd>
+  </dl>`;
+}
+
+function hexFacts({ info }: HexMesh): TemplateResult {
+  return html`<dl class="facts">
+    <dt>Hexes</dt><dd>${count(info.hexes)}</dd>
+    <dt>Nodes</dt><dd>${count(info.nodes)}</dd>
+    ${extents(info)}
+    <dt>Boundary</dt><dd>${count(info.boundaryFaces)} faces<small>${pieces(info.components)}</small></dd>
+  </dl>`;
+}
+
+function extents({ bounds, meanEdge, longestEdge }: Pick<SurfaceInfo, 'bounds' | 'meanEdge' | 'longestEdge'>): TemplateResult {
+  const size = bounds.max.map((high, axis) => significant(high - (bounds.min[axis] ?? 0), 3));
+  return html`<dt>Size</dt><dd>${size.join(' × ')}</dd>
+    <dt>Edges</dt><dd>${significant(meanEdge, 3)} mean<small>${significant(longestEdge, 3)} longest</small></dd>`;
 }
 
 const DEFECTS_SHOWN = 3;
@@ -79,6 +107,6 @@ function closure(info: SurfaceInfo): string {
   return info.boundaryEdges === 0 ? 'Closed' : `${count(info.boundaryEdges)} open edges`;
 }
 
-function pieces(info: SurfaceInfo): string {
-  return info.components === 1 ? 'one piece' : `${count(info.components)} pieces`;
+function pieces(components: number): string {
+  return components === 1 ? 'one piece' : `${count(components)} pieces`;
 }

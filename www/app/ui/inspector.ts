@@ -2,12 +2,16 @@
 
 import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
+import type { AddedHexes, QualitySummary } from 'hexmill';
 import { iconButton, segmented, select } from './controls.js';
+import { cutPanel } from './cut-panel.js';
 import { histogram } from './histogram.js';
 import { icon } from './icons.js';
 import type { Page } from './page.js';
-import { deepest, mapColour, qualityPlace } from '../model/colouring.js';
-import { isAcceptable, levelCounts, METRICS } from '../model/metrics.js';
+import { levelColour, mapColour, qualityPlace } from '../model/colouring.js';
+import { cellCount, cornersOf, isHexes, nounOf } from '../model/job.js';
+import type { Cells } from '../model/job.js';
+import { isAcceptable, levelCounts } from '../model/metrics.js';
 import { count, duration, fixed, percent } from '../model/text.js';
 import type { Result } from '../model/workbench.js';
 
@@ -18,6 +22,7 @@ export function inspector(page: Page): TemplateResult {
   }
   return html`
     ${figures(result)}
+    ${isHexes(result.mesh) ? cutPanel(page) : nothing}
     ${certificate(page, result)}
     <section aria-labelledby="colour-title">
       <h2 id="colour-title">Colour</h2>
@@ -33,14 +38,37 @@ export function inspector(page: Page): TemplateResult {
 
 function figures({ mesh, milliseconds }: Result): TemplateResult {
   return html`<section class="figures" aria-label="Counts">
-    <p><b data-figure="quads">${count(mesh.quads.length / 4)}</b><span>quads</span></p>
+    <p><b data-figure=${PLURAL[nounOf(mesh)]}>${count(cellCount(mesh))}</b><span>${PLURAL[nounOf(mesh)]}</span></p>
     <p><b data-figure="nodes">${count(mesh.nodes.length / 3)}</b><span>nodes</span></p>
     <p class="aside">made in ${duration(milliseconds)}</p>
+    ${isHexes(mesh) ? additions(mesh.added) : nothing}
   </section>`;
 }
 
+const PLURAL = { quad: 'quads', hex: 'hexes' } as const;
+
+/** Why more was refined than asked for. */
+const ADDED: readonly (readonly [keyof AddedHexes, string])[] = [
+  ['families', 'to complete families of eight'],
+  ['balance', 'to grade levels by one'],
+  ['method', 'for the method’s templates'],
+  ['conflicts', 'where fine and coarse cannot be parted'],
+  ['repairs', 'at transitions that stay inside out'],
+];
+
+function additions(added: AddedHexes): TemplateResult | typeof nothing {
+  const reasons = ADDED.filter(([reason]) => added[reason] > 0);
+  if (reasons.length === 0) return nothing;
+  return html`<dl class="facts additions" title="Cells that were refined though no size asked for it">
+    ${reasons.map(([reason, why]) => html`<dt>${why}</dt><dd data-added=${reason}>+${count(added[reason])}</dd>`)}
+  </dl>`;
+}
+
 /** What `mesh.defects` empty says, each by itself. */
-const CERTIFIED = ['Conforming: no hanging nodes', 'No repeated or unused nodes', 'Neighbours agree in orientation'];
+const CERTIFIED = {
+  quad: ['Conforming: no hanging nodes', 'No repeated or unused nodes', 'Neighbours agree in orientation'],
+  hex: ['Conforming: no hanging nodes', 'No repeated or unused nodes', 'Every Jacobian positive, inside too'],
+} as const;
 const DEFECTS_SHOWN = 6;
 
 function certificate(page: Page, { mesh }: Result): TemplateResult {
@@ -50,7 +78,7 @@ function certificate(page: Page, { mesh }: Result): TemplateResult {
     <h2 id="checks-title">Checks</h2>
     <ul class="checks">
       ${defects.length === 0
-        ? CERTIFIED.map((text) => html`<li class="good">${icon('check')}${text}</li>`)
+        ? CERTIFIED[nounOf(mesh)].map((text) => html`<li class="good">${icon('check')}${text}</li>`)
         : defects.slice(0, DEFECTS_SHOWN).map((text) => html`<li class="bad">${icon('warn')}${text}</li>`)}
       ${more > 0 ? html`<li>and ${count(more)} more, in the log</li>` : nothing}
       ${mesh.capped > 0 ? html`<li class="note">${icon('warn')}${count(mesh.capped)} cells are larger than asked for: the deepest level was reached.</li>` : nothing}
@@ -62,9 +90,11 @@ function certificate(page: Page, { mesh }: Result): TemplateResult {
 
 function quality({ inspection }: Page, { mesh }: Result): TemplateResult {
   const info = inspection.info.value;
-  const summary = mesh.quality[info.metric];
+  // What is measured is one of the mesh's own: see `metricsOf`.
+  const summary = (mesh.quality as Readonly<Record<string, QualitySummary>>)[info.metric];
+  if (!summary) return html``;
   const text = (value: number): string => `${fixed(value, info.decimals)}${info.unit}`;
-  const quads = mesh.quads.length / 4;
+  const cells = cellCount(mesh);
   const { brush, brushed, cell, values } = inspection;
   const { min, max, mean, percentile1 } = summary;
   const stats =
@@ -75,7 +105,7 @@ function quality({ inspection }: Page, { mesh }: Result): TemplateResult {
   return html`<section aria-labelledby="quality-title">
     <div class="title-row">
       <h2 id="quality-title">Quality</h2>
-      ${select('Measure', METRICS.map(({ metric, label }) => ({ value: metric, label })), info.metric, (metric) => inspection.choose(metric))}
+      ${select('Measure', inspection.metrics.value.map(({ metric, label }) => ({ value: metric, label })), info.metric, (metric) => inspection.choose(metric))}
     </div>
     <dl class="stats">
       ${stats.map(([name, value]) => html`<div class=${isAcceptable(info, value) ? '' : 'bad'}><dt>${name}</dt><dd>${text(value)}</dd></div>`)}
@@ -88,7 +118,7 @@ function quality({ inspection }: Page, { mesh }: Result): TemplateResult {
     ${brush.value
       ? html`<p class="hint">${count(brushed.value ?? 0)} cells from ${text(brush.value.low)} to ${text(brush.value.high)}.
           <button class="text-button" type="button" @click=${() => inspection.select(null)}>Show all</button></p>`
-      : html`<p class="hint"><b>${percent(inspection.acceptable.value, quads)}</b> acceptable (${info.worst === 'low' ? 'at least' : 'at most'} ${text(info.acceptable)}). ${info.says}</p>`}
+      : html`<p class="hint"><b>${percent(inspection.acceptable.value, cells)}</b> acceptable (${info.worst === 'low' ? 'at least' : 'at most'} ${text(info.acceptable)}). ${info.says}</p>`}
   </section>`;
 }
 
@@ -114,11 +144,16 @@ function cell(page: Page, { mesh }: Result): TemplateResult | typeof nothing {
       ? html`<p class="hint">Step through them, or click a cell in the view.</p>`
       : html`<dl class="facts" data-cell=${looked}>
           <dt>${info.value.label}</dt><dd>${fixed(value, info.value.decimals)}${info.value.unit}</dd>
-          <dt>Cell</dt><dd>${count(looked)}<small>level ${mesh.level[looked]}, of input face ${count(mesh.parent[looked] ?? 0)}</small></dd>
-          <dt>Nodes</dt><dd class="ids">${Array.from(mesh.quads.subarray(4 * looked, 4 * looked + 4), (node) => count(node)).join('  ')}</dd>
+          <dt>Cell</dt><dd>${count(looked)}<small>level ${mesh.level[looked]}, of input ${isHexes(mesh) ? 'hex' : 'face'} ${count(mesh.parent[looked] ?? 0)}</small></dd>
+          <dt>Nodes</dt><dd class="ids">${nodesOf(mesh, looked).map((node) => count(node)).join('  ')}</dd>
         </dl>
         <button class="text-button" type="button" @click=${() => page.viewport.show(looked)}>${icon('target')}Show it</button>`}
   </section>`;
+}
+
+function nodesOf(mesh: Cells, cell: number): number[] {
+  const { corners, each } = cornersOf(mesh);
+  return Array.from(corners.subarray(each * cell, each * (cell + 1)));
 }
 
 function levels({ inspection }: Page, { mesh }: Result): TemplateResult {
@@ -132,7 +167,7 @@ function levels({ inspection }: Page, { mesh }: Result): TemplateResult {
         n === 0
           ? nothing
           : html`<li><span>${level}</span>
-              <span class="bar" style="--part:${n / most};${isColoured ? `--bar:${mapColour('levels', level / deepest(mesh))}` : ''}"></span>
+              <span class="bar" style="--part:${n / most};${isColoured ? `--bar:${levelColour(mesh, level)}` : ''}"></span>
               <span>${count(n)}</span></li>`,
       )}
     </ol>

@@ -5,8 +5,8 @@ import type { TemplateResult } from 'lit-html';
 import { complaintNote, toggle } from './controls.js';
 import type { Page } from './page.js';
 import { MOST_QUADS } from 'hexmill';
+import type { Forecast } from '../model/job.js';
 import { bytes, counted, doing, duration, roughCount } from '../model/text.js';
-import { LIVE_QUADS } from '../model/workbench.js';
 
 const IS_MAC = /Mac|iPhone|iPad/.test(navigator.platform);
 
@@ -22,7 +22,7 @@ export function meshStep(page: Page): TemplateResult {
     ${isMeshing
       ? progress(page)
       : html`<button class="button primary wide ${workbench.isCurrent.value ? 'settled' : ''}" id="mesh" type="button"
-          title=${`Make the mesh. Live: make it again after each change, up to ${roughCount(LIVE_QUADS)} quads.`}
+          title=${`Make the mesh. Live: make it again after each change, up to ${roughCount(workbench.liveLimit.value)} ${workbench.makesHexes.value ? 'hexes' : 'quads'}.`}
           ?disabled=${!workbench.input.value || workbench.fault.value !== null} @click=${() => void workbench.mesh()}>
           <span>${workbench.isCurrent.value ? 'Meshed' : workbench.result.value ? 'Mesh again' : 'Mesh'}</span><kbd>${IS_MAC ? '⌘' : 'Ctrl'} ↵</kbd>
         </button>`}
@@ -37,13 +37,24 @@ function estimate({ workbench }: Page): TemplateResult | string {
   if (workbench.fault.value) return html`<span class="fault">${workbench.fault.value}</span>`;
   if (trouble) return html`<span class="fault">${trouble.text}</span>`;
   if (!guess) return workbench.input.value ? 'Estimating…' : 'Open a model to begin';
+  if (guess.noun === 'hex') return hexEstimate(guess);
   const about = guess.exact ? '' : 'about ';
   const { maxQuads } = workbench.settings.value;
-  if (guess.quads > maxQuads) {
-    const size = `${about}${roughCount(guess.quads)} quads, ${bytes(guess.bytes)}`;
-    return html`<span class="fault" data-quads=${guess.quads}>${size}: more than ${maxQuads < MOST_QUADS ? 'your limit of' : 'this page can hold,'} ${roughCount(maxQuads)}. Raise the edge length, or use fewer levels.</span>`;
+  if (guess.cells > maxQuads) {
+    const size = `${about}${roughCount(guess.cells)} quads, ${bytes(guess.bytes ?? 0)}`;
+    return html`<span class="fault" data-cells=${guess.cells}>${size}: more than ${maxQuads < MOST_QUADS ? 'your limit of' : 'this page can hold,'} ${roughCount(maxQuads)}. Raise the edge length, or use fewer levels.</span>`;
   }
-  return html`${about}<b data-quads=${guess.quads}>${roughCount(guess.quads)}</b> quads<small>${counted(guess.levels, 'level')}, ${bytes(guess.bytes)}</small>`;
+  return html`${about}<b data-cells=${guess.cells}>${roughCount(guess.cells)}</b> quads<small>${counted(guess.levels ?? 0, 'level')}, ${bytes(guess.bytes ?? 0)}</small>`;
+}
+
+/** What the work will add to what was asked for, and why. */
+function hexEstimate({ cells, added }: Forecast): TemplateResult {
+  const { families = 0, balance = 0, method = 0 } = added ?? {};
+  const reasons = ([[families, 'whole families'], [balance, 'grading'], [method, 'the method']] as const)
+    .filter(([n]) => n > 0)
+    .map(([n, why]) => `${roughCount(n)} for ${why}`);
+  return html`<b data-cells=${cells}>${roughCount(cells)}</b> hexes, and transitions
+    ${reasons.length > 0 ? html`<small data-added>Refined beyond what is asked: ${reasons.join(', ')}</small>` : nothing}`;
 }
 
 function progress({ workbench }: Page): TemplateResult | typeof nothing {

@@ -1,12 +1,14 @@
 /** What the panels share: the workbench, the inspection, the viewport, and the state of the page itself. */
 
 /// <reference types="vite/client" />
-import { signal } from '@preact/signals-core';
+import { computed, effect, signal } from '@preact/signals-core';
+import { Cutting, formatCut } from '../model/cutting.js';
 import { EXAMPLES, exampleById } from '../model/examples.js';
-import { stem } from '../model/formats.js';
+import { stem, writable } from '../model/formats.js';
 import { Inspection } from '../model/inspection.js';
+import { isHexes } from '../model/job.js';
 import { formatCommand, parseLink } from '../model/link.js';
-import type { Settings } from '../model/settings.js';
+import type { Entry, Linked } from '../model/link.js';
 import { Workbench } from '../model/workbench.js';
 import type { OutputFormat, Mesher } from 'hexmill';
 import { Theme } from './theme.js';
@@ -39,6 +41,7 @@ export type Sheet = Section | 'inspect' | null;
 export class Page {
   readonly workbench: Workbench;
   readonly inspection: Inspection;
+  readonly cutting = new Cutting();
   readonly theme = new Theme();
   readonly viewport: Viewport;
 
@@ -48,7 +51,13 @@ export class Page {
   readonly moreSize = signal(false);
   readonly logOpen = signal(false);
   readonly dropping = signal(false);
-  readonly exportFormat = signal<OutputFormat>('vtu');
+  readonly chosenFormat = signal<OutputFormat>('vtu');
+  /** Formats that hold what was made, or will be. */
+  readonly formats = computed(() => {
+    const mesh = this.workbench.result.value?.mesh;
+    return writable(mesh ? isHexes(mesh) : this.workbench.makesHexes.value);
+  });
+  readonly exportFormat = computed(() => (this.formats.value.some(({ format }) => format === this.chosenFormat.value) ? this.chosenFormat.value : 'vtu'));
   /** A short word after an action, such as "Link copied". */
   readonly said = signal('');
 
@@ -56,25 +65,47 @@ export class Page {
     this.workbench = new Workbench(mesher);
     this.inspection = new Inspection(this.workbench);
     this.viewport = new Viewport(this);
+    this.#followInput();
+  }
+
+  /** What a link asks for that a model is loaded for. */
+  #linked: Partial<Linked> = {};
+
+  /** Another model is looked at as its link says, else whole and in one colour. */
+  #followInput(): void {
+    effect(() => {
+      if (!this.workbench.input.value) return;
+      this.cutting.restore(this.#linked.cut ?? { section: null, peel: 0 });
+      this.inspection.colour.value = this.#linked.colour ?? 'plain';
+    });
   }
 
   openFile(file: File): void {
     void this.workbench.load(file.name, () => file.arrayBuffer());
   }
 
-  openExample(id: string, settings: Partial<Settings> = {}): void {
+  openExample(id: string, linked: Partial<Linked> = {}): void {
     const example = exampleById(id);
     const url = example && EXAMPLE_URLS[example.file];
     if (example && url) {
       this.viewport.up.value = example.up;
-      void this.workbench.loadExample(example, url, settings);
+      this.#linked = linked;
+      void this.workbench.loadExample(example, url, linked.settings).finally(() => (this.#linked = {}));
     } else this.say(`There is no example "${id}". There are ${EXAMPLES.map((known) => known.id).join(', ')}.`);
   }
 
   /** Opens what the address asks for. */
   openLink(): void {
     const linked = parseLink(location.hash);
-    if (linked && location.hash !== this.workbench.link()) this.openExample(linked.example, linked.settings);
+    if (linked && location.hash !== this.link()) this.openExample(linked.example, linked);
+  }
+
+  /** The link that makes this job again and looks at it so; null unless the input is an example. */
+  link(): string | null {
+    const { cutting, inspection, workbench } = this;
+    const view: Entry[] = workbench.makesHexes.value ? formatCut({ section: cutting.section.value, peel: cutting.peel.value }) : [];
+    if (inspection.colour.value !== 'plain') view.push(['colour', inspection.colour.value]);
+    return workbench.link(view);
   }
 
   async download(): Promise<void> {
@@ -88,14 +119,15 @@ export class Page {
   }
 
   async copyLink(): Promise<void> {
-    const link = this.workbench.link();
+    const link = this.link();
     if (link) await this.#copy(new URL(link, location.href).href, 'Link copied');
   }
 
   async copyCommand(): Promise<void> {
     const { input, settings } = this.workbench;
-    const name = input.value?.name;
-    if (name) await this.#copy(formatCommand(name, `${stem(name)}-mesh.${this.exportFormat.value === 'medit' ? 'mesh' : this.exportFormat.value}`, settings.value), 'Command copied');
+    if (!input.value) return;
+    const { name, hexes } = input.value;
+    await this.#copy(formatCommand({ name, holdsHexes: hexes !== null }, `${stem(name)}-mesh.${this.exportFormat.value === 'medit' ? 'mesh' : this.exportFormat.value}`, settings.value), 'Command copied');
   }
 
   async copyHash(hash: string): Promise<void> {

@@ -56,11 +56,11 @@ function editor({ workbench }: Page, { id, shape, target }: Region): TemplateRes
       'Region sized by',
       [{ value: 'size', label: 'Edge length' }, { value: 'level', label: 'Level' }],
       target.by,
-      (by) => workbench.editRegion(id, { target: by === 'size' ? { by, size: rounded(workbench.settings.value.edgeLength / 4) } : { by, level: 3 } }),
+      (by) => workbench.editRegion(id, { target: by === 'size' ? { by, size: rounded(workbench.usualEdge() / 4) } : { by, level: 3 } }),
     )}
     ${target.by === 'size'
       ? numberField({ label: 'Inside, no edge longer than', value: target.size, min: 0, open: true, unit: 'model units', change: (size) => workbench.editRegion(id, { target: { by: 'size', size } }) })
-      : numberField({ label: 'Inside, refine the input this many times', value: target.level, ...LIMITS.levels, whole: true, step: 1, change: (level) => workbench.editRegion(id, { target: { by: 'level', level } }) })}
+      : numberField({ label: 'Inside, refine the input this many times', value: target.level, ...(workbench.makesHexes.value ? LIMITS.hexLevels : LIMITS.levels), whole: true, step: 1, change: (level) => workbench.editRegion(id, { target: { by: 'level', level } }) })}
   </div>`;
 }
 

@@ -3,6 +3,7 @@
 import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { numberField, segmented, slider, toggle } from './controls.js';
+import { hexSizeStep } from './hex-size-step.js';
 import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { LIMITS } from '../model/settings.js';
@@ -15,6 +16,7 @@ const COARSEST = 1 / 4;
 
 export function sizeStep(page: Page): TemplateResult {
   const { workbench } = page;
+  if (workbench.makesHexes.value) return hexSizeStep(page);
   const settings = workbench.settings.value;
   return html`
     ${segmented(
@@ -72,7 +74,7 @@ function pick({ min, max }: { min: number; max: number }): { min: number; max: n
 
 function further({ workbench }: Page): TemplateResult {
   const { gradation, keepCoarse, maxLevels, maxQuads } = workbench.settings.value;
-  const info = workbench.input.value?.surface.info;
+  const info = workbench.input.value?.surface?.info;
   const others = info ? info.faces - info.quads : 0;
   return html`
     ${numberField({ label: 'Growth from one cell to the next, at most', value: gradation, ...LIMITS.gradation, unit: 'times', step: 0.05, change: (v) => workbench.edit({ gradation: v }) })}

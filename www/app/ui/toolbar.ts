@@ -4,7 +4,7 @@ import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { iconButton, segmented } from './controls.js';
 import type { Page } from './page.js';
-import { deepest, mapColour, mapGradient } from '../model/colouring.js';
+import { levelColour, mapGradient } from '../model/colouring.js';
 import { levelCounts } from '../model/metrics.js';
 import { fixed } from '../model/text.js';
 import type { Axis } from './viewport.js';
@@ -16,7 +16,7 @@ const DIRECTIONS: readonly { axis: Axis; label: string; says: string }[] = [
 ];
 
 export function toolbar(page: Page): TemplateResult | typeof nothing {
-  const { workbench, viewport } = page;
+  const { workbench, viewport, cutting } = page;
   if (!workbench.input.value || !viewport.ready.value) return nothing;
   return html`<div class="toolbar" role="toolbar" aria-label="View">
     ${workbench.result.value
@@ -28,6 +28,7 @@ export function toolbar(page: Page): TemplateResult | typeof nothing {
       ${DIRECTIONS.map(({ axis, label, says }) => html`<button class="icon-button letter" type="button" title=${says} aria-label=${says} @click=${() => viewport.look(axis)}>${label}</button>`)}
     </span>
     <span class="group">
+      ${cutting.bounds.value ? iconButton({ icon: 'cut', label: 'Cut open', pressed: cutting.section.value !== null, press: () => (cutting.section.value ? cutting.none() : viewport.cutOpen()) }) : nothing}
       ${iconButton({ icon: 'edges', label: 'Edges', pressed: viewport.edges.value, press: () => (viewport.edges.value = !viewport.edges.value) })}
       ${iconButton({
         icon: 'perspective', label: 'Perspective', pressed: viewport.projection.value === 'perspective',
@@ -48,7 +49,7 @@ export function legend({ workbench, inspection, viewport }: Page): TemplateResul
   if (colour === 'level') {
     const levels = levelCounts(mesh.level).flatMap((cells, level) => (cells > 0 ? [level] : []));
     return html`<div class="legend" aria-label="Colours by level"><span>Level</span>
-      ${levels.map((level) => html`<span class="chip"><i style="background:${mapColour('levels', level / deepest(mesh))}"></i>${level}</span>`)}
+      ${levels.map((level) => html`<span class="chip"><i style="background:${levelColour(mesh, level)}"></i>${level}</span>`)}
     </div>`;
   }
   const info = inspection.info.value;

@@ -1,10 +1,14 @@
 /** The bridge to the 3D view: signals in, picks and drags out. The page works without a view. */
 
-import { effect, signal } from '@preact/signals-core';
-import type { Colouring, DrawMesh, View, ViewRegion } from '../view.js';
-import type { QuadMesh } from 'hexmill';
+import { effect, signal, untracked } from '@preact/signals-core';
+import type { Colouring, DrawHexes, DrawMesh, View, ViewRegion } from '../view.js';
 import { complaint } from '../model/complaint.js';
 import { colouring } from '../model/colouring.js';
+import { nearestAxis } from '../model/cutting.js';
+import { isHexes } from '../model/job.js';
+import type { Cells, Input } from '../model/job.js';
+import type { Vec3 } from '../model/settings.js';
+import { grown } from '../model/shape.js';
 import type { Page } from './page.js';
 
 export type Axis = '+x' | '-x' | '+y' | '-y' | '+z' | '-z' | 'iso';
@@ -57,10 +61,37 @@ export class Viewport {
     this.#view?.lookAlong(axis);
   }
 
-  /** Flies to a cell of the result. */
+  /** Flies to a cell of the result; hexes are cut open there. */
   show(cell: number): void {
-    this.#page.workbench.shows.value = 'mesh';
+    const { workbench, cutting } = this.#page;
+    workbench.shows.value = 'mesh';
+    const mesh = workbench.result.value?.mesh;
+    if (mesh && isHexes(mesh) && this.#view) cutting.reveal(middleOf(mesh.nodes, mesh.hexes.subarray(8 * cell, 8 * cell + 8)), this.#view.depthOf(cell), this.#axisToEye());
     this.#view?.frameFace(cell);
+  }
+
+  /** The direction towards the eye, a unit vector. */
+  toEye(): Vec3 {
+    return (this.#view?.forward() ?? [0, 1, 0]).map((x) => 0 - x) as Vec3;
+  }
+
+  /** Cuts hexes across the horizontal axis along which they are shortest, or else that points most towards the eye. */
+  cutOpen(): void {
+    const { cutting } = this.#page;
+    const { min, max } = cutting.bounds.value ?? { min: [0, 0, 0], max: [0, 0, 0] };
+    const upward = this.up.value === 'z' ? 2 : 1;
+    const across = upward === 2 ? 1 : 2;
+    const [x, other] = [0, across].map((axis) => (max[axis] ?? 0) - (min[axis] ?? 0)) as [number, number];
+    const eye = this.toEye();
+    if (Math.min(x, other) > LONG * Math.max(x, other)) return cutting.facing(this.#axisToEye());
+    const shortest = x < other ? 0 : across;
+    cutting.facing(nearestAxis(eye.map((e, i) => (i === shortest ? e || 1 : 0)) as Vec3));
+  }
+
+  /** The horizontal axis that points most towards the eye. */
+  #axisToEye(): Vec3 {
+    const upward = this.up.value === 'z' ? 2 : 1;
+    return nearestAxis(this.toEye().map((x, i) => (i === upward ? 0 : x)) as Vec3);
   }
 
   async screenshot(): Promise<Blob | null> {
@@ -87,11 +118,12 @@ export class Viewport {
     this.#view = view;
     this.ready.value = true;
     this.#listen(view);
-    this.#stop = [this.#drawStyle(view), this.#drawMesh(view), this.#drawRegions(view)];
+    this.#stop = [this.#drawStyle(view), this.#drawMesh(view), this.#drawCut(view), this.#drawBox(view), this.#drawRegions(view)];
   }
 
   #listen(view: View): void {
-    const { workbench, inspection } = this.#page;
+    const { workbench, inspection, cutting } = this.#page;
+    view.onSectionDrag(({ normal, offset }) => cutting.move(normal, offset));
     view.onRegionDrag((index, region, phase) => {
       this.#dragging = phase === 'drag';
       workbench.dragRegion(index, region, phase);
@@ -117,17 +149,71 @@ export class Viewport {
     let drawnOf: unknown = null;
     return effect(() => {
       const { workbench, inspection } = this.#page;
-      const surface = workbench.input.value?.surface ?? null;
+      const input = workbench.input.value;
       const mesh = workbench.shows.value === 'mesh' ? (workbench.result.value?.mesh ?? null) : null;
       const colours: Colouring = mesh ? colouring(mesh, inspection) : { kind: 'plain' };
       this.#guard(() => {
-        if ((mesh ?? surface) !== drawn) {
-          drawn = mesh ?? surface;
-          view.setMesh(mesh ? ofQuads(mesh) : surface, { keepCamera: surface === drawnOf });
-          drawnOf = surface;
+        if ((mesh ?? input) !== drawn) {
+          drawn = mesh ?? input;
+          // A box around the model is larger than the model.
+          const keepCamera = input === drawnOf;
+          drawnOf = input;
+          this.#setMesh(view, mesh, input, keepCamera);
         }
         view.setColouring(colours);
       });
+    });
+  }
+
+  #setMesh(view: View, mesh: Cells | null, input: Input | null, keepCamera: boolean): void {
+    const shown = mesh ? ofCells(mesh) : (input?.hexes ?? input?.surface ?? null);
+    const hexes = shown && 'hexes' in shown ? shown : null;
+    if (hexes) view.setHexes(hexes, { keepCamera });
+    else view.setMesh(shown as DrawMesh | null, { keepCamera });
+    const { cutting } = this.#page;
+    untracked(() => {
+      cutting.layers.value = hexes ? view.layers() : 0;
+      cutting.bounds.value = hexes ? boundsOf(hexes.nodes) : null;
+      // A box around a model shows nothing of what is in it before it is cut.
+      if (hexes && mesh && input?.surface && !cutting.isChosen) this.cutOpen();
+      this.#cutAgain.value += 1;
+    });
+  }
+
+  /** A new mesh is not cut yet. */
+  readonly #cutAgain = signal(0);
+
+  #drawCut(view: View): () => void {
+    const { cutting, inspection, workbench } = this.#page;
+    const cut = (draw: () => void): (() => void) =>
+      effect(() => {
+        if (this.#cutAgain.value > 0 && cutting.bounds.value) this.#guard(draw);
+      });
+    const stops = [
+      cut(() => view.setSection(cutting.section.value)),
+      cut(() => view.setPeel(Math.min(cutting.peel.value, Math.max(0, cutting.layers.value - 1)))),
+      cut(() => {
+        const isShown = workbench.shows.value === 'mesh';
+        const [values, brush] = [inspection.values.value, inspection.brush.value];
+        view.setFilter(isShown && values && brush ? { values, range: [brush.low, brush.high] } : null);
+      }),
+      cut(() => view.mark(workbench.shows.value === 'mesh' ? inspection.cell.value : null)),
+    ];
+    return () => stops.forEach((stop) => stop());
+  }
+
+  /** The box that is to be filled with hexes, around the surface that they are made for; it is seen whole at first. */
+  #drawBox(view: View): () => void {
+    let framed: Input | null = null;
+    return effect(() => {
+      const { workbench } = this.#page;
+      const { job, hexes } = workbench.settings.value;
+      const input = workbench.input.value;
+      const isBox = job === 'hexes' && input?.surface != null;
+      const bounds = isBox && workbench.shows.value === 'input' ? workbench.bounds.value : null;
+      view.setBox(bounds && grown(bounds, hexes));
+      if (bounds && framed !== input) view.frameAll();
+      framed = isBox ? input : null;
     });
   }
 
@@ -172,6 +258,23 @@ export class Viewport {
   }
 }
 
-function ofQuads(mesh: QuadMesh): DrawMesh {
-  return { nodes: mesh.nodes, offsets: null, corners: mesh.quads };
+/** Extents that differ by less are alike. */
+const LONG = 0.85;
+
+function ofCells(mesh: Cells): DrawMesh | DrawHexes {
+  return isHexes(mesh) ? { nodes: mesh.nodes, hexes: mesh.hexes } : { nodes: mesh.nodes, offsets: null, corners: mesh.quads };
+}
+
+function boundsOf(nodes: Float64Array): { min: Vec3; max: Vec3 } {
+  const [min, max]: [Vec3, Vec3] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  nodes.forEach((x, i) => {
+    const axis = (i % 3) as 0 | 1 | 2;
+    if (x < min[axis]) min[axis] = x;
+    if (x > max[axis]) max[axis] = x;
+  });
+  return { min, max };
+}
+
+function middleOf(nodes: Float64Array, cell: Uint32Array): Vec3 {
+  return [0, 1, 2].map((axis) => cell.reduce((sum, node) => sum + (nodes[3 * node + axis] ?? 0), 0) / cell.length) as Vec3;
 }
