@@ -1,7 +1,7 @@
 /** What is made of an input: the quads or hexes, and what can be told of them before. */
 
 import { HexMesh, RefinedHexes } from 'hexmill';
-import type { CallOptions, HexFormat, Mesher, OutputFormat, PlannedHexes, QuadMesh, Region, Surface } from 'hexmill';
+import type { CallOptions, HexFormat, Mesher, OutputFormat, AddedHexes, QuadMesh, Region, Surface } from 'hexmill';
 import type { Example } from './examples.js';
 import { toHexOptions, toOptions } from './settings.js';
 import type { Settings } from './settings.js';
@@ -61,14 +61,13 @@ export function makesHexes(input: Input, settings: Settings): boolean {
 /** What can be told before the work. */
 export interface Forecast {
   readonly noun: 'quad' | 'hex';
-  /** Of hexes without those of the transitions, which are only known when they are made. */
   readonly cells: number;
   readonly exact: boolean;
-  /** Memory; null where it is not told. */
-  readonly bytes: number | null;
-  readonly levels: number | null;
+  /** Memory. */
+  readonly bytes: number;
+  readonly levels: number;
   /** What the method adds to what was asked for. */
-  readonly added: PlannedHexes | null;
+  readonly added: AddedHexes | null;
 }
 
 /** Makes meshes, and keeps the box of hexes that was last made around a surface. */
@@ -88,7 +87,7 @@ export class Maker {
     }
     const hexes = await this.#hexes(input, settings, { signal });
     const plan = await mesher.planHexes(hexes, { ...toHexOptions(settings, atSurface(input, settings)), signal });
-    return { noun: 'hex', cells: plan.treeHexes, exact: false, bytes: null, levels: null, added: plan.added };
+    return { noun: 'hex', cells: plan.hexes, exact: true, bytes: plan.bytes, levels: plan.stages.length, added: plan.added };
   }
 
   async make(input: Input, settings: Settings, options: CallOptions): Promise<Cells> {

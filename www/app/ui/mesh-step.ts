@@ -41,19 +41,20 @@ function estimate({ workbench }: Page): TemplateResult | string {
   const about = guess.exact ? '' : 'about ';
   const { maxQuads } = workbench.settings.value;
   if (guess.cells > maxQuads) {
-    const size = `${about}${roughCount(guess.cells)} quads, ${bytes(guess.bytes ?? 0)}`;
+    const size = `${about}${roughCount(guess.cells)} quads, ${bytes(guess.bytes)}`;
     return html`<span class="fault" data-cells=${guess.cells}>${size}: more than ${maxQuads < MOST_QUADS ? 'your limit of' : 'this page can hold,'} ${roughCount(maxQuads)}. Raise the edge length, or use fewer levels.</span>`;
   }
-  return html`${about}<b data-cells=${guess.cells}>${roughCount(guess.cells)}</b> quads<small>${counted(guess.levels ?? 0, 'level')}, ${bytes(guess.bytes ?? 0)}</small>`;
+  return html`${about}<b data-cells=${guess.cells}>${roughCount(guess.cells)}</b> quads<small>${counted(guess.levels, 'level')}, ${bytes(guess.bytes)}</small>`;
 }
 
 /** What the work will add to what was asked for, and why. */
-function hexEstimate({ cells, added }: Forecast): TemplateResult {
-  const { families = 0, balance = 0, method = 0 } = added ?? {};
-  const reasons = ([[families, 'whole families'], [balance, 'grading'], [method, 'the method']] as const)
+function hexEstimate({ cells, bytes: memory, levels, added }: Forecast): TemplateResult {
+  const { families = 0, balance = 0, method = 0, conflicts = 0 } = added ?? {};
+  const all = [[families, 'whole families'], [balance, 'grading'], [method, 'the method'], [conflicts, 'conflicts']] as const;
+  const reasons = all
     .filter(([n]) => n > 0)
     .map(([n, why]) => `${roughCount(n)} for ${why}`);
-  return html`<b data-cells=${cells}>${roughCount(cells)}</b> hexes, and transitions
+  return html`<b data-cells=${cells}>${roughCount(cells)}</b> hexes<small>${counted(levels, 'level')}, ${bytes(memory)}</small>
     ${reasons.length > 0 ? html`<small data-added>Refined beyond what is asked: ${reasons.join(', ')}</small>` : nothing}`;
 }
 
