@@ -102,7 +102,7 @@ impl QuadForest {
     pub fn coarse(input: &PolygonMesh, monitor: &dyn Monitor) -> Result<Self, BaseError> {
         let mut elements = as_quads(input)?;
         let edges = Edges::monitored(input, monitor)?;
-        let is_edge_node = two_colouring(input.positions.len(), &edges)
+        let is_edge_node = two_colouring(input.positions.len(), &edges, monitor)?
             .map_err(|e| BaseError::OddCycle(edges.ends[e.index()]))?;
         let (positions, node_of) = used_nodes(input, monitor)?;
         let new = |n: NodeId| node_of[n.index()];

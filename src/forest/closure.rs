@@ -276,8 +276,8 @@ impl<'a> Interface<'a> {
         monitor.proceed()?;
         parallel::sort(&mut queue);
         queue.dedup();
-        let corners = (0..8 * self.is_doubly.len()).map(|place| self.nodes(place / 8)[place % 8].index());
-        let stars = Bins::of(self.node_count, corners);
+        let corner = |place: usize| self.nodes(place / 8)[place % 8].index();
+        let stars = Bins::of(self.node_count, 8 * self.is_doubly.len(), corner);
         let mut is_queued = vec![false; self.node_count];
         queue.iter().for_each(|n| is_queued[n.index()] = true);
         let mut queue = VecDeque::from(queue);

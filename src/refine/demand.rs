@@ -20,7 +20,7 @@ impl Demand {
         options: &QuadOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, RefineError> {
-        validate(input, options)?;
+        validate(input, options, monitor)?;
         let &QuadOptions { edge_length, curvature, gradation, ref regions, .. } = options;
         let field =
             SizeField::new(input, SizeOptions { edge_length, curvature, gradation, regions }, monitor)?;

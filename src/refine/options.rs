@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::Cancelled;
 use crate::forest::BaseError;
 use crate::mesh::check::{check_faces, summary};
 use crate::mesh::{FaceId, PolygonMesh, QuadMesh, Tags};
 use crate::sizing::{Region, SizingError};
+use crate::{Cancelled, Monitor};
 
 /// What [`refine_quads`](super::refine_quads) is to do. Lengths are in model units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -193,11 +193,15 @@ impl From<SizingError> for RefineError {
 }
 
 /// Refuses options out of range and surfaces with invalid faces.
-pub(super) fn validate(input: &PolygonMesh, options: &QuadOptions) -> Result<(), RefineError> {
+pub(super) fn validate(
+    input: &PolygonMesh,
+    options: &QuadOptions,
+    monitor: &dyn Monitor,
+) -> Result<(), RefineError> {
     if input.face_count() == 0 {
         return Err(RefineError::NoFaces);
     }
-    let defects = check_faces(input);
+    let defects = check_faces(input, monitor)?;
     if !defects.is_empty() {
         return Err(RefineError::InvalidInput(summary(&defects).iter().map(ToString::to_string).collect()));
     }

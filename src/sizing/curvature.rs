@@ -34,7 +34,7 @@ const SHARP: f64 = 40.0;
 /// If the mesh has node ids out of range.
 pub(super) fn turn_per_length(mesh: &PolygonMesh, monitor: &dyn Monitor) -> Result<Vec<f64>, Cancelled> {
     let edges = Edges::monitored(mesh, monitor)?;
-    let uses = EdgeUses::of(&edges);
+    let uses = EdgeUses::monitored(&edges, monitor)?;
     let normals = parallel::try_collect(mesh.face_count(), monitor, |f| area_normal(mesh, f))?;
     let turns = turns(mesh, &edges, &uses, &normals, monitor)?;
     let face = |f: usize| {

@@ -27,6 +27,7 @@ use super::topology::{EdgeUses, Edges, disagrees, edge_ids, non_manifold_nodes, 
 use super::{EdgeId, FaceId, Faces, NodeId, PolygonMesh, QuadMesh};
 use crate::geometry::Point;
 use crate::parallel;
+use crate::{Cancelled, Monitor};
 
 /// Everything wrong with a quad mesh; empty for a conforming, oriented manifold without loose nodes.
 pub fn check_quads(mesh: &QuadMesh) -> Vec<Defect> {
@@ -43,23 +44,32 @@ pub fn check_polygons(mesh: &PolygonMesh) -> Vec<Defect> {
 
 /// What keeps a polygon mesh from being one at all: broken offsets, faces of fewer than three nodes, ids out of
 /// range, coordinates that are not finite, nodes repeated in a face. In time linear in the mesh.
-pub fn check_faces(mesh: &PolygonMesh) -> Vec<Defect> {
+///
+/// # Errors
+/// If the monitor stops it.
+pub fn check_faces(mesh: &PolygonMesh, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
     if let Some(face) = broken_offsets(mesh) {
-        return vec![Defect::BrokenOffsets { face }];
+        return Ok(vec![Defect::BrokenOffsets { face }]);
     }
-    let mut defects = per_face(mesh, |f| face_ids(mesh, f));
+    let at_each = |count: usize, look: &(dyn Fn(usize) -> Option<Defect> + Sync)| {
+        parallel::try_gather(count, monitor, |k, found| found.extend(look(k)))
+    };
+    let mut defects = at_each(mesh.face_count(), &|f| face_ids(mesh, f))?;
     if defects.is_empty() {
-        defects.extend(not_finite(mesh.positions()));
-        defects.extend(per_face(mesh, |f| {
+        defects.extend(at_each(mesh.positions.len(), &|n| not_finite_at(&mesh.positions, n))?);
+        defects.extend(at_each(mesh.face_count(), &|f| {
             repeated_node(mesh.face(f)).map(|node| Defect::RepeatedNode { face: FaceId::new(f), node })
-        }));
+        })?);
     }
-    defects
+    Ok(defects)
 }
 
 fn not_finite(positions: &[Point]) -> Vec<Defect> {
-    let look = |n: usize| (!positions[n].is_finite()).then(|| Defect::NotFinite { node: NodeId::new(n) });
-    parallel::filter_map(positions.len(), look)
+    parallel::filter_map(positions.len(), |n| not_finite_at(positions, n))
+}
+
+fn not_finite_at(positions: &[Point], n: usize) -> Option<Defect> {
+    (!positions[n].is_finite()).then(|| Defect::NotFinite { node: NodeId::new(n) })
 }
 
 fn check(mesh: &impl Faces) -> Vec<Defect> {

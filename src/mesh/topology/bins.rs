@@ -1,5 +1,8 @@
 //! Which places of a list name each of a row of things.
 
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor, Silent};
+
 /// For each bin the places in a list that name it, in ascending order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Bins {
@@ -9,26 +12,37 @@ pub(crate) struct Bins {
 }
 
 impl Bins {
-    /// Turns a list of bins around, by a counting sort; every bin named is less than `count`.
-    pub fn of(
+    /// Turns a list of `len` bins around, by a counting sort; every bin named is less than `count`.
+    pub fn of(count: usize, len: usize, bin: impl Fn(usize) -> usize) -> Self {
+        Self::monitored(count, len, bin, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`Bins::of`], for callers that may want to stop.
+    pub fn monitored(
         count: usize,
-        bins: impl DoubleEndedIterator<Item = usize> + ExactSizeIterator + Clone,
-    ) -> Self {
+        len: usize,
+        bin: impl Fn(usize) -> usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let mut offsets = vec![0u32; count + 1];
-        for bin in bins.clone() {
-            offsets[bin] += 1;
+        for batch in batches(len, monitor) {
+            batch?.for_each(|k| offsets[bin(k)] += 1);
         }
         let mut end = 0;
         for offset in &mut offsets {
             end += *offset;
             *offset = end;
         }
-        let mut places = vec![0u32; bins.len()];
-        for (k, bin) in bins.enumerate().rev() {
-            offsets[bin] -= 1;
-            places[offsets[bin] as usize] = u32::try_from(k).expect("more than 2^32 places");
+        let mut places = vec![0u32; len];
+        for batch in batches(len, monitor) {
+            // From the last, so that each bin's places ascend.
+            for k in batch?.map(|k| len - 1 - k) {
+                let offset = &mut offsets[bin(k)];
+                *offset -= 1;
+                places[*offset as usize] = u32::try_from(k).expect("more than 2^32 places");
+            }
         }
-        Self { offsets, places }
+        Ok(Self { offsets, places })
     }
 
     /// The places that name bin `b`.

@@ -52,8 +52,7 @@ impl HexFaces {
             of_hex.extend(hexes[batch?].iter().map(number));
         }
         let nodes = sets.into_nodes();
-        monitor.proceed()?;
-        let sides = Bins::of(nodes.len(), of_hex.as_flattened().iter().map(|f| f.index()));
+        let sides = Bins::monitored(nodes.len(), 6 * of_hex.len(), |k| of_hex.as_flattened()[k].index(), monitor)?;
         Ok(Self { nodes, of_hex, sides })
     }
 
@@ -109,7 +108,8 @@ impl HexEdges {
 
     /// The hexes at each edge, as `12 * h + k` for edge `k` of hex `h`.
     pub(crate) fn uses(&self) -> Bins {
-        Bins::of(self.ends.len(), self.of_hex.as_flattened().iter().map(|e| e.index()))
+        let edges = self.of_hex.as_flattened();
+        Bins::of(self.ends.len(), edges.len(), |k| edges[k].index())
     }
 }
 

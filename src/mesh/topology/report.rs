@@ -4,6 +4,8 @@ use serde::Serialize;
 
 use super::{EdgeUses, Edges, Sets};
 use crate::mesh::{EdgeId, Faces, NodeId};
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor, Silent};
 
 /// What kind of surface a mesh is. None of this is an error: open, non-manifold and one-sided surfaces
 /// can be refined too.
@@ -73,7 +75,7 @@ pub fn surface_report(mesh: &impl Faces, edges: &Edges) -> SurfaceReport {
         euler: nodes as i64 - edges.len() as i64 + mesh.face_count() as i64,
         disagreeing_edges: edge_ids(edges).filter(|&e| disagrees(mesh, &uses, e)).count(),
         orientable: is_orientable(mesh, &uses, edges),
-        two_colourable: two_colouring(mesh.node_count(), edges).is_ok(),
+        two_colourable: two_colouring(mesh.node_count(), edges, &Silent).is_ok_and(|colours| colours.is_ok()),
     }
 }
 
@@ -100,15 +102,29 @@ pub(crate) fn disagrees(mesh: &impl Faces, uses: &EdgeUses, e: EdgeId) -> bool {
 }
 
 /// Colours the nodes so that every edge joins `false` and `true`; the least node of each component
-/// gets `false`. The error is an edge that closes a cycle of odd length.
-pub fn two_colouring(nodes: usize, edges: &Edges) -> Result<Vec<bool>, EdgeId> {
+/// gets `false`. The inner error is an edge that closes a cycle of odd length.
+///
+/// # Errors
+/// If the monitor stops it.
+pub fn two_colouring(
+    nodes: usize,
+    edges: &Edges,
+    monitor: &dyn Monitor,
+) -> Result<Result<Vec<bool>, EdgeId>, Cancelled> {
     let mut sides = Sets::new(nodes);
-    for (e, &[a, b]) in edges.ends.iter().enumerate() {
-        if !sides.join(a.0, b.0, true) {
-            return Err(EdgeId::new(e));
+    for batch in batches(edges.len(), monitor) {
+        for e in batch? {
+            let [a, b] = edges.ends[e];
+            if !sides.join(a.0, b.0, true) {
+                return Ok(Err(EdgeId::new(e)));
+            }
         }
     }
-    Ok((0..nodes as u32).map(|n| sides.root(n).1).collect())
+    let mut colours = Vec::with_capacity(nodes);
+    for batch in batches(nodes, monitor) {
+        colours.extend(batch?.map(|n| sides.root(n as u32).1));
+    }
+    Ok(Ok(colours))
 }
 
 /// The nodes around which the faces form more than one fan, with the number of fans.
@@ -241,11 +257,11 @@ mod tests {
         let mut mesh = PolygonMesh { positions: vec![Point::ZERO; 9], ..Default::default() };
         mesh.push_face([3, 2, 1, 0].map(NodeId));
         mesh.push_face([8, 7, 6, 5].map(NodeId));
-        let colours = two_colouring(9, &Edges::of_polygons(&mesh)).unwrap();
+        let colours = two_colouring(9, &Edges::of_polygons(&mesh), &Silent).unwrap().unwrap();
         assert_eq!(colours, [false, true, false, true, false, false, true, false, true]);
         mesh.push_face([0, 1, 8].map(NodeId));
         let edges = Edges::of_polygons(&mesh);
-        let odd = two_colouring(9, &edges).unwrap_err();
+        let odd = two_colouring(9, &edges, &Silent).unwrap().unwrap_err();
         assert_eq!(edges.ends[odd.index()], [8, 0].map(NodeId));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Bins;
 use crate::mesh::{EdgeId, Edges};
+use crate::{Cancelled, Monitor, Silent};
 
 /// For each edge the corners that use it, in ascending order: one on the boundary, two inside a
 /// manifold surface, more where sheets meet. Corner `k` walks its edge forwards if the mesh's corner
@@ -12,7 +13,16 @@ pub struct EdgeUses(Bins);
 impl EdgeUses {
     /// Turns `edges.of_corner` around.
     pub fn of(edges: &Edges) -> Self {
-        Self(Bins::of(edges.len(), edges.of_corner.iter().map(|e| e.index())))
+        Self::monitored(edges, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`EdgeUses::of`], for callers that may want to stop.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn monitored(edges: &Edges, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let of_corner = &edges.of_corner;
+        Bins::monitored(edges.len(), of_corner.len(), |k| of_corner[k].index(), monitor).map(Self)
     }
 
     /// The corners that use edge `e`.
