@@ -15,6 +15,7 @@
 //! | [`mesh`] | ids, reference elements, meshes, topology, checks, quality |
 //! | [`template`] | refinement templates as data |
 //! | [`sizing`] | where to refine and how far |
+//! | [`graph`] | minimum cuts; knows no mesh |
 //! | [`forest`] | quadtrees and octrees over unstructured coarse cells, strong balance, closure |
 //! | [`optimize`] | untangling and smoothing of hexes |
 //! | [`refine`] | conforming refinement (Ebeida, Patney, Owens, Mestreau) |
@@ -26,6 +27,7 @@ pub mod mesh;
 mod monitor;
 pub mod parallel;
 
+pub mod graph;
 pub mod sizing;
 pub mod template;
 

@@ -52,7 +52,8 @@ impl HexFaces {
             of_hex.extend(hexes[batch?].iter().map(number));
         }
         let nodes = sets.into_nodes();
-        let sides = Bins::monitored(nodes.len(), 6 * of_hex.len(), |k| of_hex.as_flattened()[k].index(), monitor)?;
+        let sides =
+            Bins::monitored(nodes.len(), 6 * of_hex.len(), |k| of_hex.as_flattened()[k].index(), monitor)?;
         Ok(Self { nodes, of_hex, sides })
     }
 

@@ -84,7 +84,7 @@ impl Pinches {
     ) -> Result<Vec<u32>, Cancelled> {
         let (mut star, mut regions) = (Star::default(), Regions::default());
         let ends: Vec<[usize; 2]> = self.edges.iter().map(|edge| places(interface, edge)).collect();
-        let at_node = Bins::of(interface.nodes.len(), ends.as_flattened().iter().copied());
+        let at_node = Bins::of(interface.nodes.len(), 2 * ends.len(), |k| ends.as_flattened()[k]);
         let mut queue: VecDeque<usize> = (0..self.edges.len()).collect();
         let mut is_queued = vec![true; self.edges.len()];
         let mut steps = 0usize;
