@@ -56,9 +56,10 @@ const BINARYEN_FEATURES = [
   'simd',
 ].map((feature) => `--enable-${feature}`);
 
-const ON_ONE_THREAD = { optimize: ['-O3'] };
+const ON_ONE_THREAD = { profile: 'web-mesher', optimize: ['-O3'] };
 
 const ON_A_POOL = {
+  profile: 'web-mesher',
   optimize: ['-O3', '--enable-threads'],
   cargo: ['-Z', 'build-std=std,panic_abort'],
   env: { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: THREADS_FLAGS },
