@@ -14,7 +14,7 @@ import { CASES, installPacked, node, tool } from './project.js';
 import type { Project } from './project.js';
 
 /** The most that each module may weigh when compressed, in bytes. That of hexes is fetched when they are first asked for. */
-const BUDGETS = { mesher: 400_000, 'mesher-threads': 400_000, hexes: 420_000, 'hexes-threads': 420_000 };
+const BUDGETS = { mesher: 400_000, 'mesher-threads': 400_000, hexes: 520_000, 'hexes-threads': 520_000 };
 
 /** A cancelled call has to leave the processor to the next within this time, in milliseconds. */
 const PROMPT = 200;

@@ -36,7 +36,7 @@ describe('links', () => {
   test('give the settings back', () => {
     const linked = parseLink(`#${formatLink('spot', full)}`);
     expect(linked?.example).toBe('spot');
-    expect(bare({ ...DEFAULTS, ...linked?.settings })).toEqual(bare(full));
+    expect(bare({ ...DEFAULTS, ...linked?.settings, hexes: DEFAULTS.hexes })).toEqual(bare(full));
   });
 
   test('give levels back', () => {
