@@ -52,7 +52,7 @@ describe.each([{ isolated: true }, { isolated: false }])('isolated: $isolated', 
     const before = await bench.picture();
     await bench.mesh();
     const hexes = await bench.figure('hexes');
-    // The transitions are not counted before.
+    // What was told before is what was made.
     expect(hexes).toBe(told);
     expect(await page.locator('[data-valid]').getAttribute('data-valid')).toBe('true');
     expect(await page.locator('.levels li > span:first-child').allInnerTexts()).toEqual(['1', '2']);
