@@ -28,12 +28,14 @@ const REFINE: Stage = Stage("refine");
 /// let mut refinement = HexRefinement::new(&cubes, &options, &Silent)?;
 /// loop {
 ///     let candidates = refinement.candidates();
-///     let targets: Vec<f64> = candidates.centers.iter().map(|p| 0.3 + p.length()).collect();
+///     let targets: Vec<f64> = candidates.centers.iter().map(|p| 0.1 + p.length() / 2.0).collect();
 ///     if !refinement.advance(Some(&targets), &Silent)? {
 ///         break;
 ///     }
 /// }
-/// assert!(refinement.finish(&Silent)?.mesh.hexes.len() > 64);
+/// let refined = refinement.finish(&Silent)?;
+/// assert_eq!(refined.level.iter().max(), Some(&3));
+/// assert!(refined.mesh.hexes.len() > 64);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct HexRefinement<'a> {
