@@ -149,15 +149,15 @@ impl QuadForest {
         if depth + 1 == self.levels.len() {
             self.levels.push(Level { siblings: 2, ..Level::default() });
         }
-        let face_nodes = self.add_nodes(depth, marked);
+        let first_node = self.positions.len();
+        let mut divided = self.levels[depth].edges.undivided_of(marked);
+        let made = self
+            .add_nodes(depth, marked, &divided, monitor)
+            .and_then(|()| self.children(depth, marked, first_node + divided.len(), monitor));
+        let blocks = made.inspect_err(|_| self.take_back_nodes(depth, first_node, &divided))?;
         let (parents, children) = self.levels.split_at_mut(depth + 1);
         let (parent, child) = (&mut parents[depth], &mut children[0]);
-        let blocks: Vec<[[NodeId; 4]; 4]> = parallel::collect(marked.len(), |k| {
-            let e = marked[k] as usize;
-            let [r0, r1, r2, r3] = parent.elements[e];
-            let [m0, m1, m2, m3] = parent.edges.of_element[e].map(|e| parent.edges.middle[e.index()]);
-            place(&SPLIT, &[r0, r1, r2, r3, m0, m1, m2, m3, NodeId(face_nodes.0 + k as u32)])
-        });
+        parent.edges.split.append(&mut divided);
         append(&mut child.elements, blocks.into_flattened());
         child.is_refined.resize(child.elements.len(), false);
         child.roots.extend(marked.iter().map(|&e| parent.root(e as usize)));
@@ -168,22 +168,49 @@ impl QuadForest {
         Ok(())
     }
 
-    /// Divides the edges of the `marked` elements that nothing divides yet, in the order of the edges, and gives
-    /// each element its face node; returns the first of the face nodes.
-    fn add_nodes(&mut self, depth: usize, marked: &[u32]) -> NodeId {
+    /// Adds the nodes that divide the edges `divided`, in their order, and the face nodes of the `marked` elements.
+    fn add_nodes(
+        &mut self,
+        depth: usize,
+        marked: &[u32],
+        divided: &[EdgeId],
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
         let Level { elements, edges, .. } = &mut self.levels[depth];
         let first_node = self.positions.len();
-        let mut divided = edges.undivided_of(marked);
-        for (k, edge) in divided.iter().enumerate() {
-            edges.middle[edge.index()] = NodeId::new(first_node + k);
-        }
-        parallel::grow(&mut self.positions, divided.len() + marked.len(), |old, k| match divided.get(k) {
+        let count = divided.len() + marked.len();
+        parallel::try_grow(&mut self.positions, count, monitor, |old, k| match divided.get(k) {
             Some(edge) => midpoint(old, edges.ends[edge.index()]),
             None => center(old, elements[marked[k - divided.len()] as usize]),
-        });
-        let first_face_node = NodeId::new(first_node + divided.len());
-        edges.split.append(&mut divided);
-        first_face_node
+        })?;
+        for batch in batches(divided.len(), monitor) {
+            batch?.for_each(|k| edges.middle[divided[k].index()] = NodeId::new(first_node + k));
+        }
+        Ok(())
+    }
+
+    /// Undoes [`add_nodes`](Self::add_nodes), as far as it went.
+    fn take_back_nodes(&mut self, depth: usize, first_node: usize, divided: &[EdgeId]) {
+        self.positions.truncate(first_node);
+        let middle = &mut self.levels[depth].edges.middle;
+        divided.iter().for_each(|edge| middle[edge.index()] = UNDIVIDED);
+    }
+
+    /// The four children of each of the `marked` elements, whose face nodes are numbered from `first_face_node`.
+    fn children(
+        &self,
+        depth: usize,
+        marked: &[u32],
+        first_face_node: usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<[[NodeId; 4]; 4]>, Cancelled> {
+        let Level { elements, edges, .. } = &self.levels[depth];
+        parallel::try_collect(marked.len(), monitor, |k| {
+            let e = marked[k] as usize;
+            let [r0, r1, r2, r3] = elements[e];
+            let [m0, m1, m2, m3] = edges.of_element[e].map(|e| edges.middle[e.index()]);
+            place(&SPLIT, &[r0, r1, r2, r3, m0, m1, m2, m3, NodeId::new(first_face_node + k)])
+        })
     }
 
     /// Makes all edges of the levels that have refined elements.
@@ -262,5 +289,59 @@ pub(super) fn append<T>(all: &mut Vec<T>, mut more: Vec<T>) {
         *all = more;
     } else {
         all.append(&mut more);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+    use super::*;
+    use crate::mesh::PolygonMesh;
+    use crate::{Silent, Stage};
+
+    /// Says stop at a question.
+    struct StopsAt(usize, AtomicUsize);
+
+    impl Monitor for StopsAt {
+        fn progress(&self, _: Stage, _: f64) {}
+        fn cancelled(&self) -> bool {
+            self.1.fetch_add(1, Relaxed) == self.0
+        }
+    }
+
+    /// Two quads, each split once, one of the eight split again.
+    fn forest() -> QuadForest {
+        let positions = [[0., 0.], [1., 0.], [1., 1.], [0., 1.], [2., 0.], [2., 1.]];
+        let mut mesh = PolygonMesh {
+            positions: positions.map(|[x, y]| Point::new(x, y, 0.0)).to_vec(),
+            ..PolygonMesh::default()
+        };
+        mesh.push_face([0, 1, 2, 3].map(NodeId));
+        mesh.push_face([1, 4, 5, 2].map(NodeId));
+        let mut forest = QuadForest::refined_once(&mesh, &Silent).expect("two quads");
+        forest.split(0, &[0], &Silent).expect("nobody stops it");
+        forest
+    }
+
+    /// Wherever it is stopped, a split leaves a forest that can be split as if it had never been tried.
+    #[test]
+    fn a_split_that_is_stopped_changes_nothing() {
+        let nodes = forest().positions.len();
+        let mut whole = forest();
+        whole.split(0, &[3, 5], &Silent).expect("nobody stops it");
+        let mut stops = 0;
+        for question in 0.. {
+            let mut forest = forest();
+            if forest.split(0, &[3, 5], &StopsAt(question, AtomicUsize::new(0))).is_ok() {
+                break;
+            }
+            stops += 1;
+            assert_eq!(forest.positions.len(), nodes, "stopped at question {question}");
+            forest.split(0, &[3, 5], &Silent).expect("nobody stops it");
+            assert_eq!(forest.positions, whole.positions);
+            assert_eq!(forest.levels[1].elements, whole.levels[1].elements);
+        }
+        assert!(stops >= 3, "it was asked {stops} times");
     }
 }

@@ -84,15 +84,29 @@ pub fn extend_from_slice<T: Copy + Send + Sync>(all: &mut Vec<T>, more: &[T]) {
 
 /// Appends what `make` gives from the items so far, for each number below `count`.
 pub fn grow<T: Send + Sync>(all: &mut Vec<T>, count: usize, make: impl Fn(&[T], usize) -> T + Sync) {
+    unstopped(try_grow(all, count, &Silent, make));
+}
+
+/// As [`grow`], unless the monitor stops it: then it appends nothing.
+///
+/// # Errors
+/// If the monitor stops it.
+pub fn try_grow<T: Send + Sync>(
+    all: &mut Vec<T>,
+    count: usize,
+    monitor: &dyn Monitor,
+    make: impl Fn(&[T], usize) -> T + Sync,
+) -> Result<(), Cancelled> {
     all.reserve(count);
     let slots = Slots::after(all, count);
     let before = all.as_slice();
-    each_block(count, block_size(count), &|block| {
+    try_each_block(count, block_size(count), monitor, &|block| {
         // SAFETY: blocks do not overlap, and end at `count` at most; the slots lie behind `before`.
         block.for_each(|k| unsafe { slots.write(k, make(before, k)) });
-    });
-    // SAFETY: every slot below `count` was written; a panic in `make` does not come here.
+    })?;
+    // SAFETY: every slot below `count` was written; neither a panic in `make` nor a stop comes here.
     unsafe { all.set_len(all.len() + count) };
+    Ok(())
 }
 
 /// Calls `work` for each number below `count`.
