@@ -114,7 +114,7 @@ test('memory that runs out all the same is said in plain words, and nothing is l
   const complaint = page.locator('#step-mesh .complaint');
   await complaint.waitFor();
   expect(await complaint.getAttribute('data-code')).toBe('out-of-memory');
-  expect(await complaint.innerText()).toMatch(/Memory ran out: ask for fewer quads.*Nothing that was loaded is lost/);
+  expect(await complaint.innerText()).toMatch(/Memory ran out: ask for fewer cells.*Nothing that was loaded is lost/);
   expect(await page.locator('.file-name').innerText()).toBe('pawn.obj');
   expect(await bench?.figure('quads')).toBe(quads);
   const download = await bench?.export('OBJ, Wavefront');
