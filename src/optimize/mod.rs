@@ -8,9 +8,8 @@
 //! 3. `untangle`: cells that are not positive are pushed open by a regularised energy;
 //! 4. `smooth`: shape first, then more and more the worst corners alone.
 //!
-//! Promises: once all are untangled, no cell stops being positive (at its corners, and inside by Bernstein's bound), and
-//! the worst scaled Jacobian never falls. Nodes that are not movable do not move. The same bytes for
-//! any number of threads. Time is linear in the cells around movable nodes, but for one pass over all hexes.
+//! Promises: in smoothing no cell stops being positive (at its corners, and inside by Bernstein's bound), and the worst
+//! scaled Jacobian never falls. Nodes that are not movable do not move. The same bytes for any number of threads. Time is linear in the cells around movable nodes, but for one pass over all hexes.
 //!
 //! Refuses nothing: cells that stay inverted are listed in the report, for the caller to repair.
 
@@ -35,11 +34,12 @@ use problem::Problem;
 /// How far to go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OptimizeOptions {
-    /// Cells whose scaled Jacobian is above this are good enough: only their worse neighbours move them.
+    /// Cells whose scaled Jacobian is above this are good enough: only their worse neighbours move them. The last
+    /// courses of smoothing let 0.05 less do.
     pub target: f64,
     /// Sweeps over the tangled part before the cells left are given up.
     pub untangle_sweeps: usize,
-    /// Sweeps over the cells below the target in each of the stages of smoothing.
+    /// Sweeps over the cells below the target in each of the courses of smoothing.
     pub smooth_sweeps: usize,
 }
 

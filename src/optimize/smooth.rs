@@ -47,26 +47,25 @@ pub(super) fn smooth(
     let mut done = 0;
     for (index, Course { weights, below }) in COURSES.into_iter().enumerate() {
         let target = options.target - below;
-        let below: Vec<usize> = (0..jacobians.len()).filter(|&c| jacobians[c] < target).collect();
-        if below.is_empty() {
+        let low: Vec<usize> = (0..jacobians.len()).filter(|&c| jacobians[c] < target).collect();
+        if low.is_empty() {
             continue;
         }
-        let allowed = problem.rings_around(&below, RINGS);
+        let allowed = problem.rings_around(&low, RINGS);
         let mut awake = allowed.clone();
         problem.guarded = jacobians.iter().map(|&jacobian| jacobian < GUARDED).collect();
         for round in 0..options.smooth_sweeps {
             monitor.checkpoint(SMOOTHING, (index * options.smooth_sweeps + round) as f64 / total)?;
             let worst = jacobians.iter().copied().fold(f64::INFINITY, f64::min);
             let rules = Rules { weights, eps: 0.0, floor: Some(worst) };
-            let moved = keep_positive(problem, &mut awake, |problem, awake| {
+            let (changed, far) = keep_positive(problem, &mut awake, |problem, awake| {
                 sweep(problem, rules, &allowed, awake, monitor)
             })?;
-            let changed = problem.cells_around(&moved.nodes);
             let renewed =
                 parallel::collect(changed.len(), |k| scaled_jacobian(&problem.corners(changed[k] as usize)));
             changed.iter().zip(renewed).for_each(|(&cell, jacobian)| jacobians[cell as usize] = jacobian);
             done += 1;
-            if moved.far == 0 {
+            if far == 0 {
                 break;
             }
         }
@@ -76,24 +75,26 @@ pub(super) fn smooth(
 }
 
 /// Makes a round, again and again until every cell that was positive inside still is: those that were lost are guarded
-/// the next time.
+/// the next time. The cells that changed, and how many nodes moved far.
 fn keep_positive(
     problem: &mut Problem,
     awake: &mut Vec<bool>,
     mut round: impl FnMut(&mut Problem, &mut [bool]) -> Result<Moved, Cancelled>,
-) -> Result<Moved, Cancelled> {
+) -> Result<(Vec<u32>, usize), Cancelled> {
     let before = (problem.points.clone(), awake.clone());
     loop {
-        let moved = round(problem, awake)?;
-        let changed = problem.cells_around(&moved.nodes);
-        let lost: Vec<u32> = parallel::filter_map(changed.len(), |k| {
-            let cell = changed[k] as usize;
-            (problem.positive[cell] && !problem.is_positive(cell)).then_some(changed[k])
-        });
+        let Moved { nodes, far } = round(problem, awake)?;
+        let changed = problem.cells_around(&nodes);
+        let is_positive = parallel::collect(changed.len(), |k| problem.is_positive(changed[k] as usize));
+        let now = || changed.iter().map(|&cell| cell as usize).zip(is_positive.iter().copied());
+        let lost: Vec<usize> =
+            now().filter(|&(cell, is)| problem.positive[cell] && !is).map(|(cell, _)| cell).collect();
         if lost.is_empty() {
-            return Ok(moved);
+            // Those that became positive are to stay so from now on.
+            now().for_each(|(cell, is)| problem.positive[cell] = is);
+            return Ok((changed, far));
         }
-        lost.into_iter().for_each(|cell| problem.guarded[cell as usize] = true);
+        lost.into_iter().for_each(|cell| problem.guarded[cell] = true);
         problem.points.clone_from(&before.0);
         awake.clone_from(&before.1);
     }
@@ -116,13 +117,13 @@ mod tests {
         let mut problem = Problem::new(&positions, &hexes, &[true; 8], &constraints);
         let mut awake = vec![true; 8];
         let mut starts = Vec::new();
-        let moved = keep_positive(&mut problem, &mut awake, |problem, awake| {
+        let done = keep_positive(&mut problem, &mut awake, |problem, awake| {
             starts.push((problem.points[6], awake[6], problem.guarded[0]));
             awake[6] = false;
             problem.points[6] = if problem.guarded[0] { Point::splat(0.9) } else { Point::splat(-1.0) };
             Ok(Moved { nodes: vec![6], far: 1 })
         });
-        assert_eq!(moved.unwrap().nodes, [6]);
+        assert_eq!(done, Ok((vec![0], 1)));
         assert_eq!(starts, [(Point::ONE, true, false), (Point::ONE, true, true)]);
         assert_eq!(problem.points[6], Point::splat(0.9));
     }

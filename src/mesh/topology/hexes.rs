@@ -45,13 +45,7 @@ impl HexFaces {
         hexes: &[[NodeId; 8]],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let mut sets = NodeSets::new(node_count, hexes.as_flattened(), 3 * hexes.len());
-        let mut of_hex: Vec<[FaceId; 6]> = Vec::with_capacity(hexes.len());
-        for batch in batches(hexes.len(), monitor) {
-            let number = |hex: &[NodeId; 8]| FACES.map(|face| FaceId(sets.number(corners(hex, face))));
-            of_hex.extend(hexes[batch?].iter().map(number));
-        }
-        let nodes = sets.into_nodes();
+        let (nodes, of_hex) = numbered(node_count, hexes, FACES, FaceId, monitor)?;
         let sides =
             Bins::monitored(nodes.len(), 6 * of_hex.len(), |k| of_hex.as_flattened()[k].index(), monitor)?;
         Ok(Self { nodes, of_hex, sides })
@@ -98,13 +92,8 @@ impl HexEdges {
         hexes: &[[NodeId; 8]],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let mut sets = NodeSets::new(node_count, hexes.as_flattened(), 3 * hexes.len());
-        let mut of_hex: Vec<[EdgeId; 12]> = Vec::with_capacity(hexes.len());
-        for batch in batches(hexes.len(), monitor) {
-            let number = |hex: &[NodeId; 8]| EDGES.map(|edge| EdgeId(sets.number(corners(hex, edge))));
-            of_hex.extend(hexes[batch?].iter().map(number));
-        }
-        Ok(Self { ends: sets.into_nodes(), of_hex })
+        let (ends, of_hex) = numbered(node_count, hexes, EDGES, EdgeId, monitor)?;
+        Ok(Self { ends, of_hex })
     }
 
     /// The hexes at each edge, as `12 * h + k` for edge `k` of hex `h`.
@@ -137,6 +126,26 @@ pub fn hex_boundary(hexes: &[[NodeId; 8]]) -> Vec<([NodeId; 4], HexId)> {
     let faces = HexFaces::of(node_count, hexes);
     let boundary = faces.ids().filter(|&f| faces.is_boundary(f));
     boundary.map(|f| (faces.nodes[f.index()], hex_of(faces.sides(f)[0]))).collect()
+}
+
+/// The nodes of each part of some hexes, and the parts of each hex.
+type Numbered<const N: usize, const PARTS: usize, Id> = (Vec<[NodeId; N]>, Vec<[Id; PARTS]>);
+
+/// Numbers the parts of the hexes: each hex has one for each row of `table`.
+fn numbered<const N: usize, const PARTS: usize, Id>(
+    node_count: usize,
+    hexes: &[[NodeId; 8]],
+    table: [[u8; N]; PARTS],
+    id: impl Fn(u32) -> Id,
+    monitor: &dyn Monitor,
+) -> Result<Numbered<N, PARTS, Id>, Cancelled> {
+    let mut sets = NodeSets::new(node_count, hexes.as_flattened(), 3 * hexes.len());
+    let mut of_hex = Vec::with_capacity(hexes.len());
+    for batch in batches(hexes.len(), monitor) {
+        let parts = |hex: &[NodeId; 8]| table.map(|local| id(sets.number(corners(hex, local))));
+        of_hex.extend(hexes[batch?].iter().map(parts));
+    }
+    Ok((sets.into_nodes(), of_hex))
 }
 
 /// Some corners of a hex.
