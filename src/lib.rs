@@ -16,9 +16,11 @@
 //! | [`template`] | refinement templates as data |
 //! | [`sizing`] | where to refine and how far |
 //! | [`graph`] | minimum cuts; knows no mesh |
+//! | [`solid`] | the CAD model: corners, curves, surfaces, inside and outside |
 //! | [`forest`] | quadtrees and octrees over unstructured coarse cells, strong balance, closure |
 //! | [`optimize`] | untangling and smoothing of hexes |
 //! | [`refine`] | conforming refinement (Ebeida, Patney, Owens, Mestreau) |
+//! | [`hexing`] | all-hex meshes of solids |
 //! | [`io`] | bytes in, bytes out: OBJ, VTU, VTK, MSH, INP, MEDIT, GLB |
 //! | [`scene`] | meshes as f32 draw buffers; no GPU |
 
@@ -29,6 +31,7 @@ pub mod parallel;
 
 pub mod graph;
 pub mod sizing;
+pub mod solid;
 pub mod template;
 
 pub mod forest;
@@ -36,6 +39,8 @@ pub mod forest;
 pub mod optimize;
 
 pub mod refine;
+
+pub mod hexing;
 
 pub mod io;
 pub mod scene;

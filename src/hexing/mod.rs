@@ -1,0 +1,5 @@
+//! All-hex meshes of CAD solids (the second paper: "Non-Regular Background Mesh based Hex Meshing").
+//!
+//! A background mesh is made around a [`solid`](crate::solid), its core is cut out of it, corners, curves and surfaces
+//! of the solid are found on the core's boundary, sheets are inserted where cells would be bad, and the nodes are
+//! moved to the solid without a cell ever being inverted.
