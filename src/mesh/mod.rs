@@ -1,6 +1,7 @@
 //! Meshes: ids, structure-of-arrays meshes, topology, checks, quality.
 
 pub mod check;
+mod distance;
 mod faces;
 mod grid;
 mod hash;
@@ -16,6 +17,7 @@ pub mod topology;
 mod volume;
 
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
+pub use distance::{Distance, Distances, Triangles};
 pub use faces::Faces;
 pub use grid::{GridError, GridOptions, hex_grid};
 pub use hash::{MeshHash, mesh_hash, polygon_hash};

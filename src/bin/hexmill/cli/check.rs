@@ -3,10 +3,9 @@
 use hexmill::io::{AnyMesh, Document};
 use hexmill::mesh::check::{DefectCount, Severity};
 use hexmill::mesh::topology::hex_boundary;
-use hexmill::mesh::{PolygonMesh, Volumes};
+use hexmill::mesh::{Distances, PolygonMesh, Triangles, Volumes};
 
 use super::args::CheckArgs;
-use super::distance::{Distances, Triangles};
 use super::failure::Failure;
 use super::files::{check_outputs, format_of, load};
 use super::mesh_report::{MeshReport, Topology, quality_table};
@@ -31,11 +30,11 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     report.distance = match &args.surface {
         Some(path) => {
             let (positions, triangles) = progress.stage("read", || load_triangles(path))?;
-            let other = Triangles { positions, triangles };
-            let surface = surface_of(document);
-            let triangles = triangles_of(&surface, &args.mesh)?;
-            let mesh = Triangles { positions: surface.positions, triangles };
-            Some(progress.stage("distance", || Distances::between(&mesh, &other)))
+            let surface = Triangles { positions: &positions, triangles: &triangles };
+            let faces = surface_of(document);
+            let triangles = triangles_of(&faces, &args.mesh)?;
+            let mesh = Triangles { positions: &faces.positions, triangles: &triangles };
+            Some(Distances::between(mesh, surface, &progress).expect("nothing stops the command line"))
         }
         None => None,
     };

@@ -3,7 +3,6 @@
 mod args;
 mod check;
 mod convert;
-mod distance;
 mod failure;
 mod files;
 mod grid;

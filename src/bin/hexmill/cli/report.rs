@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use hexmill::io::Format;
+use hexmill::mesh::Distances;
 use hexmill::refine::hex::{Added, HexForecast, Method, StageReport};
 use serde::Serialize;
 
-use super::distance::Distances;
 use super::failure::Failure;
 use super::files::{Loaded, save};
 use super::mesh_report::{Counts, MeshReport};

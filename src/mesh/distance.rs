@@ -1,0 +1,151 @@
+//! How far a mesh and a surface are from each other.
+
+use serde::Serialize;
+
+use crate::geometry::{NearestTriangle, Point};
+use crate::{Cancelled, Monitor, Stage, parallel};
+
+/// A surface of triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangles<'a> {
+    /// Points, of which triangles need not use all.
+    pub positions: &'a [Point],
+    /// The corners of each triangle, as numbers of positions.
+    pub triangles: &'a [[u32; 3]],
+}
+
+/// The stage that a monitor hears of.
+const MEASURING: Stage = Stage("distance");
+
+/// Samples between two questions to the monitor.
+const BATCH: usize = 1 << 14;
+
+/// Distances both ways: small one way alone may mean that the mesh covers but a part of the surface.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Distances {
+    /// From samples of the mesh to the surface.
+    pub mesh_to_surface: Distance,
+    /// From samples of the surface to the mesh.
+    pub surface_to_mesh: Distance,
+}
+
+/// Distances of samples of one surface, its nodes and the centroids of its triangles, to another surface.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Distance {
+    /// The greatest.
+    pub max: f64,
+    /// The mean.
+    pub mean: f64,
+    /// Root of the mean square.
+    pub rms: f64,
+    /// The sample of the greatest distance.
+    pub farthest: [f64; 3],
+    /// How many samples there are.
+    pub samples: usize,
+}
+
+impl Distances {
+    /// Measures; both surfaces have triangles with finite corners.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when the monitor says so.
+    pub fn between(
+        mesh: Triangles<'_>,
+        surface: Triangles<'_>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        monitor.checkpoint(MEASURING, 0.0)?;
+        let mesh_to_surface = Distance::from_to(mesh, surface, monitor)?;
+        monitor.checkpoint(MEASURING, 0.5)?;
+        let surface_to_mesh = Distance::from_to(surface, mesh, monitor)?;
+        monitor.progress(MEASURING, 1.0);
+        Ok(Self { mesh_to_surface, surface_to_mesh })
+    }
+
+    /// The greater of the greatest distances both ways, the Hausdorff distance of the samples.
+    pub fn hausdorff(&self) -> f64 {
+        self.mesh_to_surface.max.max(self.surface_to_mesh.max)
+    }
+}
+
+impl Triangles<'_> {
+    fn corners(&self) -> impl Iterator<Item = [Point; 3]> {
+        self.triangles.iter().map(|t| t.map(|n| self.positions[n as usize]))
+    }
+
+    /// The nodes in use and the centroids.
+    fn samples(&self) -> Vec<Point> {
+        let mut used = vec![false; self.positions.len()];
+        for &node in self.triangles.as_flattened() {
+            used[node as usize] = true;
+        }
+        let nodes = self.positions.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p);
+        nodes.chain(self.corners().map(|[a, b, c]| (a + b + c) / 3.0)).collect()
+    }
+}
+
+impl Distance {
+    fn from_to(from: Triangles<'_>, to: Triangles<'_>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let nearest = NearestTriangle::new(to.corners());
+        let samples = from.samples();
+        let distance = |p: Point| nearest.closest_point(p).map_or(f64::INFINITY, |q| q.distance(p));
+        let mut distances: Vec<f64> = Vec::with_capacity(samples.len());
+        for batch in samples.chunks(BATCH) {
+            monitor.proceed()?;
+            parallel::extend(&mut distances, batch.len(), |k| distance(batch[k]));
+        }
+        let farthest = (0..samples.len()).max_by(|&i, &j| distances[i].total_cmp(&distances[j]));
+        let count = samples.len() as f64;
+        Ok(Self {
+            max: farthest.map_or(0.0, |i| distances[i]),
+            mean: distances.iter().sum::<f64>() / count,
+            rms: (distances.iter().map(|d| d * d).sum::<f64>() / count).sqrt(),
+            farthest: farthest.map_or([0.0; 3], |i| samples[i].to_array()),
+            samples: samples.len(),
+        })
+    }
+
+    /// In a line.
+    pub fn in_words(&self) -> String {
+        let [x, y, z] = self.farthest;
+        format!("mean {:.6e}, rms {:.6e}, greatest {:.6e} at {x}, {y}, {z}", self.mean, self.rms, self.max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Silent;
+
+    /// The corners of a right triangle of legs 3 in the plane at height `z`, and a point that it does not use.
+    fn corners(z: f64) -> [Point; 4] {
+        [[0.0, 0.0], [3.0, 0.0], [0.0, 3.0], [9.0, 9.0]].map(|[x, y]| Point::new(x, y, z))
+    }
+
+    fn between(mesh: &[Point], surface: &[Point]) -> Distances {
+        let triangle = |positions| Triangles { positions, triangles: &[[0, 1, 2]] };
+        Distances::between(triangle(mesh), triangle(surface), &Silent).unwrap()
+    }
+
+    #[test]
+    fn of_parallel_triangles() {
+        let distances = between(&corners(0.0), &corners(2.0));
+        assert_eq!(
+            distances.mesh_to_surface,
+            Distance { max: 2.0, mean: 2.0, rms: 2.0, farthest: [1.0, 1.0, 0.0], samples: 4 }
+        );
+        assert_eq!(distances.hausdorff(), 2.0);
+    }
+
+    #[test]
+    fn of_a_part_and_the_whole() {
+        let mut half = corners(0.0);
+        half[1].x = 1.0;
+        let distances = between(&half, &corners(0.0));
+        assert_eq!(distances.mesh_to_surface.max, 0.0);
+        assert!(distances.surface_to_mesh.max > 1.0);
+        assert_eq!(distances.hausdorff(), distances.surface_to_mesh.max);
+    }
+}
