@@ -18,6 +18,11 @@ impl Frame {
         Self { origin, local_from_world: DMat3::from_quat(rotation).transpose() }
     }
 
+    /// The frame at `origin` with these axes: right-handed, of unit length, perpendicular.
+    pub fn with_axes(origin: Point, axes: DMat3) -> Self {
+        Self { origin, local_from_world: axes.transpose() }
+    }
+
     /// A frame at `origin` whose z axis has the direction of the unit vector `z`.
     pub fn along(origin: Point, z: Point) -> Self {
         let (x, y) = z.any_orthonormal_pair();

@@ -22,6 +22,7 @@ pub use faces::Faces;
 pub use grid::{GridError, GridOptions, hex_grid};
 pub use hash::{MeshHash, mesh_hash, polygon_hash};
 pub use hex::HexMesh;
+pub(crate) use id::ids;
 pub use id::{EdgeId, FaceId, HexId, NodeId};
 pub use orientation::{InvertedHexes, orient_hexes};
 pub use polygon::{Features, PolygonMesh};

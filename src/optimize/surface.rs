@@ -88,7 +88,7 @@ impl BoundarySurface {
                 ridges.push(e);
             }
         }
-        let patch_of_face = numbered(&mut sets, surface.face_count());
+        let patch_of_face = sets.numbers();
         let (triangles, patch_of_triangle) = triangles(surface, &patch_of_face);
         let patch_count = patch_of_face.iter().max().map_or(0, |&p| p as usize + 1);
         let mut by_patch = vec![Vec::new(); patch_count];
@@ -174,13 +174,6 @@ impl BoundarySurface {
 /// The least and the greatest of some patches.
 fn pair(patches: impl Iterator<Item = u32>) -> [u32; 2] {
     patches.fold([u32::MAX, 0], |[low, high], p| [low.min(p), high.max(p)])
-}
-
-/// The number of each member's set; sets are numbered in the order of their least members.
-fn numbered(sets: &mut Sets, members: usize) -> Vec<u32> {
-    let roots: Vec<u32> = sets.roots().collect();
-    let place = |root: u32| roots.partition_point(|&r| r < root) as u32;
-    (0..members as u32).map(|m| place(sets.root(m).0)).collect()
 }
 
 fn triangles(surface: &impl Faces, patch_of_face: &[u32]) -> (Vec<[Point; 3]>, Vec<u32>) {

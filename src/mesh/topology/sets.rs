@@ -55,6 +55,13 @@ impl Sets {
         true
     }
 
+    /// The number of each member's set; sets are numbered in the order of their least members.
+    pub(crate) fn numbers(&mut self) -> Vec<u32> {
+        let roots: Vec<u32> = self.roots().collect();
+        let place = |root: u32| roots.partition_point(|&r| r < root) as u32;
+        (0..self.parent.len() as u32).map(|m| place(self.root(m).0)).collect()
+    }
+
     /// The least members of all sets, ascending.
     pub(crate) fn roots(&self) -> impl Iterator<Item = u32> {
         self.parent.iter().zip(0u32..).filter(|&(&p, i)| p == i).map(|(_, i)| i)

@@ -1,0 +1,77 @@
+//! Small solids for tests.
+
+use super::{SolidModel, SolidOptions};
+use crate::Silent;
+use crate::geometry::Point;
+use crate::mesh::{NodeId, PolygonMesh};
+
+/// The solid inside `surface`, with the usual options.
+#[track_caller]
+pub(crate) fn solid(surface: &PolygonMesh) -> SolidModel {
+    SolidModel::new(surface, &SolidOptions::default(), &Silent).expect("it bounds a solid").0
+}
+
+/// The boundary of the unit cubes, among `size` of them along each axis from the origin, that are `full`: quads, outward,
+/// with points for each quad alone.
+pub(crate) fn voxels(size: [i32; 3], full: impl Fn([i32; 3]) -> bool) -> PolygonMesh {
+    let mut mesh = PolygonMesh::default();
+    let holds = |c: [i32; 3]| (0..3).all(|a| (0..size[a]).contains(&c[a])) && full(c);
+    let [nx, ny, nz] = size;
+    for c in (0..nx * ny * nz).map(|i| [i % nx, i / nx % ny, i / nx / ny]).filter(|&c| holds(c)) {
+        for (axis, side) in (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]) {
+            let mut other = c;
+            other[axis] += 2 * side - 1;
+            if holds(other) {
+                continue;
+            }
+            // Around the axis, so that the normal looks along it.
+            let mut around = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[u, v]| {
+                let mut p = c;
+                p[axis] += side;
+                p[(axis + 1) % 3] += u;
+                p[(axis + 2) % 3] += v;
+                Point::from(p.map(f64::from))
+            });
+            if side == 0 {
+                around.reverse();
+            }
+            let first = mesh.positions.len() as u32;
+            mesh.positions.extend(around);
+            mesh.push_face((first..first + 4).map(NodeId));
+        }
+    }
+    mesh
+}
+
+/// A box of `size`, of unit quads.
+pub(crate) fn cuboid(size: [i32; 3]) -> PolygonMesh {
+    voxels(size, |_| true)
+}
+
+/// A box of 3 x 3 x 2 with a square hole through its middle.
+pub(crate) fn holed() -> PolygonMesh {
+    voxels([3, 3, 2], |[x, y, _]| (x, y) != (1, 1))
+}
+
+/// An L of three cubes.
+pub(crate) fn ell() -> PolygonMesh {
+    voxels([2, 2, 1], |[x, y, _]| (x, y) != (1, 1))
+}
+
+/// A prism along z of height 2 over a regular polygon of `n` corners on the unit circle.
+pub(crate) fn cylinder(n: u32) -> PolygonMesh {
+    let mut mesh = PolygonMesh::default();
+    for z in [0.0, 2.0] {
+        mesh.positions.extend((0..n).map(|i| {
+            let (y, x) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(n));
+            Point::new(x, y, z)
+        }));
+    }
+    mesh.push_face((0..n).rev().map(NodeId));
+    mesh.push_face((n..2 * n).map(NodeId));
+    for i in 0..n {
+        let j = (i + 1) % n;
+        mesh.push_face([i, j, n + j, n + i].map(NodeId));
+    }
+    mesh
+}
