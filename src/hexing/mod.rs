@@ -3,3 +3,5 @@
 //! A background mesh is made around a [`solid`](crate::solid), its core is cut out of it, corners, curves and surfaces
 //! of the solid are found on the core's boundary, sheets are inserted where cells would be bad, and the nodes are
 //! moved to the solid without a cell ever being inverted.
+
+pub mod direction;
