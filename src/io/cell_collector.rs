@@ -1,14 +1,16 @@
 //! From the cells of a file, of mixed kinds and in any order, to one mesh.
 //!
-//! A file with hexahedra is a hex mesh, and its faces and lines (usually the boundary's) are left out;
-//! a file without is a surface, whose lines become [`Features::polylines`].
+//! A file with hexahedra is a hex mesh: its faces with tags are groups of boundary faces, and its lines are left out. A
+//! file without is a surface, whose lines become [`Features::polylines`].
 
+use super::boundary_faces::match_faces;
 use super::cell_kind::{CellKind, ONLY_THESE_CELLS};
 use super::refusal::{code, refuse};
 use super::tag_interner::CellTags;
-use super::{AnyMesh, Document, Format, ReadError};
+use super::{Document, Format, ReadError};
 use crate::geometry::Point;
-use crate::mesh::{FaceId, Features, HexMesh, NodeId, PolygonMesh, Tags};
+use crate::mesh::topology::Side;
+use crate::mesh::{BoundaryGroups, FaceId, Features, HexMesh, NodeId, PolygonMesh};
 
 /// The cells of a file, checked one by one.
 pub(super) struct CellCollector {
@@ -25,6 +27,8 @@ pub(super) struct CellCollector {
     face_source: Vec<u32>,
     hex_source: Vec<u32>,
     features: Features,
+    /// Faces of hexes that the file names and does not have.
+    dropped_faces: usize,
 }
 
 /// What a file says of its cells: nothing, or one entry for each cell of any kind, in the file's order.
@@ -52,6 +56,7 @@ impl CellCollector {
             face_source: Vec::new(),
             hex_source: Vec::new(),
             features: Features::default(),
+            dropped_faces: 0,
         }
     }
 
@@ -83,6 +88,11 @@ impl CellCollector {
         }
         self.seen = self.seen.checked_add(1).ok_or_else(|| self.too_large())?;
         Ok(())
+    }
+
+    /// Counts faces that the file names and does not have.
+    pub fn drop_faces(&mut self, count: usize) {
+        self.dropped_faces += count;
     }
 
     /// The error about a cell that is not read; `named` says what it is.
@@ -153,21 +163,29 @@ impl CellCollector {
             let message = "the file holds neither faces nor hexahedra — there is nothing to refine";
             return Err(refuse(self.format, None, code::NO_CELLS, message));
         }
-        let tags = attributes.tags.map(|tags| tags.of_cells(source)).unwrap_or_default();
+        let mut cell_tags = attributes.tags.unwrap_or_default();
+        let tags = cell_tags.of_cells(source);
         let level = pick(attributes.level, source, |v| u8::try_from(v).ok());
         let parent = pick(attributes.parent, source, |v| u32::try_from(v).ok().map(FaceId));
-        let mesh = if hexes {
-            AnyMesh::Hexes(HexMesh { positions, hexes: self.hexes, tags: Tags::default() })
-        } else {
-            AnyMesh::Polygons(PolygonMesh {
-                positions,
-                offsets: self.offsets,
-                corners: self.corners,
-                tags: Tags::default(),
-                features: self.features,
-            })
-        };
-        Ok(Document { mesh, tags, level, parent })
+        if !hexes {
+            let Self { offsets, corners, features, .. } = self;
+            let mesh = PolygonMesh { positions, offsets, corners, features, ..PolygonMesh::default() };
+            return Ok(Document { tags, level, parent, ..Document::from(mesh) });
+        }
+        let (groups, dropped_faces) = self.groups(&mut cell_tags)?;
+        let mesh = HexMesh { positions, hexes: self.hexes, groups, ..HexMesh::default() };
+        Ok(Document { tags, level, parent, dropped_faces, ..Document::from(mesh) })
+    }
+
+    /// The groups of boundary faces, and how many faces are none of the boundary.
+    fn groups(&self, tags: &mut CellTags) -> Result<(BoundaryGroups, usize), ReadError> {
+        if Side::try_from(6 * self.hexes.len()).is_err() {
+            return Err(self.too_large());
+        }
+        let face = |ends: &[u32]| &self.corners[ends[0] as usize..ends[1] as usize];
+        let faces = self.offsets.windows(2).map(face).zip(self.face_source.iter().copied());
+        let matched = match_faces(&self.hexes, self.node_count, faces);
+        Ok((tags.of_sides(&matched.sides, self.format)?, matched.others + self.dropped_faces))
     }
 }
 

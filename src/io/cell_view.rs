@@ -1,9 +1,14 @@
 //! What the writers see of a document: nodes, cells of any kind, and what is known of each cell.
 
+use std::borrow::Cow;
+use std::sync::LazyLock;
+
 use super::refusal::{code, refuse_writing};
+use super::tag_numbers::cell_numbers;
 use super::{AnyMesh, Document, Format, WriteError};
 use crate::geometry::Point;
-use crate::mesh::{FaceId, NodeId, PolygonMesh, Tags};
+use crate::mesh::topology::{hex_of, side_nodes};
+use crate::mesh::{BoundaryGroups, FaceId, NodeId, PolygonMesh, Tags};
 
 /// A document that was checked: every node id is in range, every coordinate is finite, and the columns
 /// have an entry a cell or none.
@@ -18,7 +23,12 @@ pub(super) struct CellView<'a> {
     pub level: &'a [u8],
     /// Parent of each cell, or empty.
     pub parent: &'a [FaceId],
+    /// Groups of boundary faces of hexes.
+    pub groups: &'a BoundaryGroups,
 }
+
+/// No groups, for surfaces.
+static NO_GROUPS: LazyLock<BoundaryGroups> = LazyLock::new(BoundaryGroups::default);
 
 /// The cells of a mesh.
 #[derive(Clone, Copy)]
@@ -68,13 +78,13 @@ impl<'a> Cells<'a> {
 impl<'a> CellView<'a> {
     /// The view of `document`, which must hold together.
     pub fn new(document: &'a Document, format: Format) -> Result<Self, WriteError> {
-        let (positions, cells) = match &document.mesh {
-            AnyMesh::Polygons(mesh) => (&mesh.positions, Cells::Polygons(mesh)),
-            AnyMesh::Quads(mesh) => (&mesh.positions, Cells::Quads(&mesh.quads)),
-            AnyMesh::Hexes(mesh) => (&mesh.positions, Cells::Hexes(&mesh.hexes)),
+        let (cells, groups) = match &document.mesh {
+            AnyMesh::Polygons(mesh) => (Cells::Polygons(mesh), &*NO_GROUPS),
+            AnyMesh::Quads(mesh) => (Cells::Quads(&mesh.quads), &*NO_GROUPS),
+            AnyMesh::Hexes(mesh) => (Cells::Hexes(&mesh.hexes), &mesh.groups),
         };
-        let view =
-            Self { positions, cells, tags: &document.tags, level: &document.level, parent: &document.parent };
+        let Document { mesh, tags, level, parent, .. } = document;
+        let view = Self { positions: mesh.positions(), cells, tags, level, parent, groups };
         view.check().map_err(|(code, message)| refuse_writing(format, code, message))?;
         Ok(view)
     }
@@ -96,6 +106,10 @@ impl<'a> CellView<'a> {
                 format!("a cell has tag set {set} of {}", self.tags.sets.len()),
             ));
         }
+        if let Some(side) = self.groups.sides().iter().find(|&&side| hex_of(side).index() >= count) {
+            let message = format!("a group of boundary faces is at hex {} of {count}", hex_of(*side));
+            return Err((code::INCONSISTENT, message));
+        }
         let nodes = self.positions.len();
         if let Some(node) = self.cells.corners().iter().find(|node| node.index() >= nodes) {
             return Err((code::NODE_OUT_OF_RANGE, format!("a cell names node {node} of {nodes}")));
@@ -104,6 +118,32 @@ impl<'a> CellView<'a> {
             return Err((code::NOT_FINITE, format!("node {node} has a coordinate that is NaN or infinite")));
         }
         Ok(())
+    }
+
+    /// The nodes of the boundary faces that are in groups, anticlockwise seen from outside.
+    pub fn boundary_faces(&self) -> Vec<[NodeId; 4]> {
+        let Cells::Hexes(hexes) = self.cells else { return Vec::new() };
+        self.groups.sides().iter().map(|&side| side_nodes(hexes, side)).collect()
+    }
+
+    /// What is known of each cell, and after it the same of the hex of each boundary face that is in a group.
+    pub fn with_boundary_faces<'c, T: Copy>(&self, of_cells: &'c [T]) -> Cow<'c, [T]> {
+        if of_cells.is_empty() || self.groups.is_empty() {
+            return Cow::Borrowed(of_cells);
+        }
+        let of_faces = self.groups.sides().iter().map(|&side| of_cells[hex_of(side).index()]);
+        Cow::Owned(of_cells.iter().copied().chain(of_faces).collect())
+    }
+
+    /// The number of the tag set of each cell, then of each boundary face that is in a group; nothing if there are no
+    /// tags. Cells and boundary faces are numbered apart.
+    pub fn numbers(&self) -> Vec<i32> {
+        let mut numbers = cell_numbers(self.tags);
+        if !self.groups.is_empty() {
+            numbers.resize(self.cells.len(), 0);
+            numbers.extend(cell_numbers(self.groups.tags()));
+        }
+        numbers
     }
 
     /// Refuses polygons of more than four nodes, for the formats that know none.

@@ -43,7 +43,8 @@ impl AnyMesh {
 
 /// A mesh with what is known of its cells. The vectors have an entry a cell, or none at all.
 ///
-/// The names of the cells stand in [`Document::tags`] alone: the `tags` of the mesh within are empty.
+/// The names of the cells stand in [`Document::tags`] alone: the `tags` of the mesh within are empty. The groups of the
+/// boundary faces of hexes stand in the mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     /// Nodes and cells.
@@ -54,6 +55,8 @@ pub struct Document {
     pub level: Vec<u8>,
     /// The cell of the input that each cell is part of.
     pub parent: Vec<FaceId>,
+    /// Faces in a file of hexes that are no boundary faces of these, and were left out.
+    pub dropped_faces: usize,
 }
 
 impl Document {
@@ -64,7 +67,7 @@ impl Document {
             AnyMesh::Hexes(mesh) => std::mem::take(&mut mesh.tags),
             AnyMesh::Quads(_) => Tags::default(),
         };
-        Self { mesh, tags, level: Vec::new(), parent: Vec::new() }
+        Self { mesh, tags, level: Vec::new(), parent: Vec::new(), dropped_faces: 0 }
     }
 
     /// The faces of the document as a surface with its tags, or `None` if it holds hexes.
@@ -111,11 +114,7 @@ impl From<RefinedHexes> for Document {
 
 impl From<RefinedQuads> for Document {
     fn from(refined: RefinedQuads) -> Self {
-        Self {
-            mesh: AnyMesh::Quads(refined.mesh),
-            tags: refined.tags,
-            level: refined.level,
-            parent: refined.parent,
-        }
+        let RefinedQuads { mesh, tags, level, parent, .. } = refined;
+        Self { tags, level, parent, ..Self::from(mesh) }
     }
 }

@@ -12,6 +12,7 @@ pub mod obj;
 pub mod vtk;
 pub mod vtu;
 
+mod boundary_faces;
 mod cell_collector;
 mod cell_kind;
 mod cell_view;

@@ -1,11 +1,13 @@
 //! Tags while a file is read: one copy of each distinct set.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::name_budget::NameBudget;
 use super::refusal::{code, refuse};
+use super::tag_numbers::Names;
 use super::{Format, ReadError};
-use crate::mesh::{TagSet, Tags};
+use crate::mesh::topology::Side;
+use crate::mesh::{BoundaryGroups, TagSet, Tags};
 
 /// The tags of the cells of a file, of any kind, in the file's order.
 #[derive(Default)]
@@ -23,13 +25,14 @@ impl CellTags {
     }
 
     /// Tags from the number of each cell, as MEDIT and VTK have them: 0 is no tag. `named` are the sets
-    /// that a number stands for where the file says more than the number.
-    pub fn from_numbers(numbers: &[i64], named: &HashMap<i64, TagSet>) -> Self {
-        let mut tags = Self::default();
+    /// that a number stands for where the file says more than the number; for boundary faces of hexes these are others.
+    pub fn from_numbers(numbers: &[i64], named: &Names, is_boundary: impl Fn(usize) -> bool) -> Self {
+        let mut tags = Self::new(0);
         let mut index_of_number = HashMap::new();
-        for &number in numbers {
-            let index = *index_of_number.entry(number).or_insert_with(|| {
-                tags.index(named.get(&number).cloned().unwrap_or_else(|| TagSet {
+        for (cell, &number) in numbers.iter().enumerate() {
+            let on_boundary = is_boundary(cell);
+            let index = *index_of_number.entry((number, on_boundary)).or_insert_with(|| {
+                tags.index(named.get(number, on_boundary).cloned().unwrap_or_else(|| TagSet {
                     number: i32::try_from(number).ok().filter(|&n| n != 0),
                     ..TagSet::default()
                 }))
@@ -70,18 +73,70 @@ impl CellTags {
     /// The tags of the given cells alone, with the sets in order of first use: no tags at all if none
     /// of the cells has any. Cells without an entry are without tags.
     pub fn of_cells(&self, cells: &[u32]) -> Tags {
+        let tags = self.in_order_of_use(cells.iter().map(|&cell| self.of_cell.get(cell as usize).copied()));
+        if tags.sets.iter().all(|set| *set == TagSet::default()) { Tags::default() } else { tags }
+    }
+
+    /// The groups of boundary faces: cells of the file by the sides that they are, ascending. A side is in the groups
+    /// of all its cells; those of cells without tags are in none.
+    ///
+    /// # Errors
+    /// If the names of all sets take more memory than the file is worth.
+    pub fn of_sides(&mut self, cells: &[(Side, u32)], format: Format) -> Result<BoundaryGroups, ReadError> {
+        let mut union_of: HashMap<Vec<u32>, u32> = HashMap::new();
+        let (mut sides, mut sets, mut here) = (Vec::new(), Vec::new(), Vec::new());
+        for same in cells.chunk_by(|a, b| a.0 == b.0) {
+            here.clear();
+            let known = same.iter().filter_map(|&(_, cell)| self.of_cell.get(cell as usize).copied());
+            here.extend(known.filter(|&set| self.sets[set as usize] != TagSet::default()));
+            here.sort_unstable();
+            here.dedup();
+            let set = match here.as_slice() {
+                [] => continue,
+                &[set] => set,
+                several => match union_of.get(several) {
+                    Some(&set) => set,
+                    None => {
+                        let set =
+                            self.intern(union(several.iter().map(|&s| &self.sets[s as usize])), format)?;
+                        union_of.insert(several.to_vec(), set);
+                        set
+                    }
+                },
+            };
+            sides.push(same[0].0);
+            sets.push(set);
+        }
+        let tags = self.in_order_of_use(sets.into_iter().map(Some));
+        Ok(BoundaryGroups::new(sides, tags).expect("sides ascend, each with a set"))
+    }
+
+    /// Tags of elements with the given sets, which are renumbered in order of first use.
+    fn in_order_of_use(&self, elements: impl Iterator<Item = Option<u32>>) -> Tags {
         let mut tags = Tags::default();
         let mut new_index: Vec<Option<u32>> = vec![None; self.sets.len()];
         let mut untagged = None;
-        for &cell in cells {
-            let old = self.of_cell.get(cell as usize);
-            let slot = old.map_or(&mut untagged, |&set| &mut new_index[set as usize]);
+        for old in elements {
+            let slot = old.map_or(&mut untagged, |set| &mut new_index[set as usize]);
             let index = *slot.get_or_insert_with(|| {
-                tags.sets.push(old.map(|&set| self.sets[set as usize].clone()).unwrap_or_default());
+                tags.sets.push(old.map(|set| self.sets[set as usize].clone()).unwrap_or_default());
                 tags.sets.len() as u32 - 1
             });
             tags.of_element.push(index);
         }
-        if tags.sets.iter().all(|set| *set == TagSet::default()) { Tags::default() } else { tags }
+        tags
     }
+}
+
+/// What several sets say together: all groups, and the first object, material and number.
+fn union<'a>(sets: impl Iterator<Item = &'a TagSet>) -> TagSet {
+    let mut union = TagSet::default();
+    let mut known = HashSet::new();
+    for set in sets {
+        union.object = union.object.or_else(|| set.object.clone());
+        union.material = union.material.or_else(|| set.material.clone());
+        union.number = union.number.or(set.number);
+        union.groups.extend(set.groups.iter().filter(|group| known.insert(*group)).cloned());
+    }
+    union
 }

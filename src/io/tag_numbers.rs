@@ -69,17 +69,25 @@ pub(super) fn set_of_labels<'a>(labels: impl IntoIterator<Item = &'a str>, numbe
     set
 }
 
+/// The dimension of the sets of boundary faces of hexes: their numbers are others than those of the hexes.
+const BOUNDARY: u64 = 2;
+
 /// The sets by their numbers as JSON, for a format that keeps numbers with the cells and has room for
-/// text elsewhere. Sets without names are left out.
-pub(super) fn names_to_json(tags: &Tags) -> Option<Vec<u8>> {
-    let named: Vec<serde_json::Value> = tags
-        .sets
-        .iter()
-        .zip(number_sets(tags))
-        .filter(|(set, _)| !has_no_names(set))
-        .map(|(set, number)| {
+/// text elsewhere. Sets without names are left out. Those of boundary faces of hexes have a dimension.
+pub(super) fn names_to_json(cells: &Tags, boundary: &Tags) -> Option<Vec<u8>> {
+    let numbered = |tags: &Tags, dimension: Option<u64>| {
+        let sets: Vec<TagSet> = tags.sets.clone();
+        sets.into_iter().zip(number_sets(tags)).map(move |(set, number)| (set, number, dimension))
+    };
+    let named: Vec<serde_json::Value> = numbered(cells, None)
+        .chain(numbered(boundary, Some(BOUNDARY)))
+        .filter(|(set, ..)| !has_no_names(set))
+        .map(|(set, number, dimension)| {
             let mut entry = serde_json::Map::new();
             entry.insert("number".into(), number.into());
+            if let Some(dimension) = dimension {
+                entry.insert("dimension".into(), dimension.into());
+            }
             if let Some(object) = &set.object {
                 entry.insert("object".into(), object.as_str().into());
             }
@@ -95,21 +103,37 @@ pub(super) fn names_to_json(tags: &Tags) -> Option<Vec<u8>> {
     (!named.is_empty()).then(|| serde_json::Value::from(named).to_string().into_bytes())
 }
 
+/// The tag sets that numbers stand for.
+#[derive(Default)]
+pub(super) struct Names {
+    of_cells: HashMap<i64, TagSet>,
+    of_boundary: HashMap<i64, TagSet>,
+}
+
+impl Names {
+    /// The set that a number stands for, of a boundary face of hexes or of another cell.
+    pub fn get(&self, number: i64, on_boundary: bool) -> Option<&TagSet> {
+        if on_boundary { &self.of_boundary } else { &self.of_cells }.get(&number)
+    }
+}
+
 /// The sets by their numbers from [`names_to_json`]; nothing if the text is not of that form.
-pub(super) fn names_from_json(json: &[u8]) -> HashMap<i64, TagSet> {
-    let Ok(serde_json::Value::Array(entries)) = serde_json::from_slice(json) else { return HashMap::new() };
+pub(super) fn names_from_json(json: &[u8]) -> Names {
+    let mut names = Names::default();
+    let Ok(serde_json::Value::Array(entries)) = serde_json::from_slice(json) else { return names };
     let text = |value: &serde_json::Value| value.as_str().map(str::to_owned);
-    entries
-        .iter()
-        .filter_map(|entry| {
-            let number = i32::try_from(entry["number"].as_i64()?).ok()?;
-            let set = TagSet {
-                object: text(&entry["object"]),
-                groups: entry["groups"].as_array().into_iter().flatten().filter_map(text).collect(),
-                material: text(&entry["material"]),
-                number: Some(number),
-            };
-            Some((i64::from(number), set))
-        })
-        .collect()
+    for entry in &entries {
+        let number = entry["number"].as_i64().and_then(|number| i32::try_from(number).ok());
+        let Some(number) = number else { continue };
+        let set = TagSet {
+            object: text(&entry["object"]),
+            groups: entry["groups"].as_array().into_iter().flatten().filter_map(text).collect(),
+            material: text(&entry["material"]),
+            number: Some(number),
+        };
+        let on_boundary = entry["dimension"].as_u64() == Some(BOUNDARY);
+        let of_kind = if on_boundary { &mut names.of_boundary } else { &mut names.of_cells };
+        of_kind.insert(number.into(), set);
+    }
+    names
 }

@@ -9,8 +9,8 @@ use super::cell_view::Cells;
 use super::refusal::{code, refuse};
 use super::scalars::Column;
 use super::tag_interner::CellTags;
+use super::tag_numbers::Names;
 use super::{Format, ReadError};
-use crate::mesh::TagSet;
 
 /// Cell data array of refinement levels.
 pub(super) const LEVEL: &str = "Level";
@@ -23,14 +23,17 @@ pub(super) const TAG: &str = "Tag";
 /// and from MEDIT files, Gmsh's, VTK's filters'.
 const TAG_ARRAYS: [&str; 5] = [TAG, "gmsh:physical", "medit:ref", "CellEntityIds", "MaterialIds"];
 
+/// VTK's type of a quad.
+pub(super) const QUAD: u8 = 9;
+
 /// VTK's type of a cell.
 pub(super) fn cell_type(cells: Cells<'_>, cell: usize) -> u8 {
     match cells {
         Cells::Hexes(_) => 12,
-        Cells::Quads(_) => 9,
+        Cells::Quads(_) => QUAD,
         Cells::Polygons(mesh) => match mesh.face(cell).len() {
             3 => 5,
-            4 => 9,
+            4 => QUAD,
             _ => 7,
         },
     }
@@ -71,22 +74,23 @@ pub(super) fn is_wanted(name: &str) -> bool {
     name == LEVEL || name == PARENT || TAG_ARRAYS.contains(&name)
 }
 
-/// The attributes of the cells from the arrays that [`is_wanted`]. Arrays of the wrong length or with
+/// The attributes of the cells of the given types from the arrays that [`is_wanted`]. Arrays of the wrong length or with
 /// numbers that are not whole are another program's, and left alone.
 pub(super) fn cell_attributes(
     mut arrays: HashMap<String, Column>,
-    cell_count: usize,
-    named: &HashMap<i64, TagSet>,
+    types: &[i64],
+    named: &Names,
 ) -> CellAttributes {
+    let is_hex = |number: &i64| matches!(CellKind::from_vtk(*number), Ok(CellKind::Hex | CellKind::Voxel));
+    let has_hexes = types.iter().any(is_hex);
     let mut whole = |name: &str| {
-        arrays.remove(name).filter(|column| column.len() == cell_count).and_then(Column::into_integers)
+        arrays.remove(name).filter(|column| column.len() == types.len()).and_then(Column::into_integers)
     };
     CellAttributes {
         level: whole(LEVEL),
         parent: whole(PARENT),
-        tags: TAG_ARRAYS
-            .iter()
-            .find_map(|name| whole(name))
-            .map(|numbers| CellTags::from_numbers(&numbers, named)),
+        tags: TAG_ARRAYS.iter().find_map(|name| whole(name)).map(|numbers| {
+            CellTags::from_numbers(&numbers, named, |cell| has_hexes && !is_hex(&types[cell]))
+        }),
     }
 }

@@ -1,7 +1,7 @@
 //! Grids of hexes around a box.
 
 use super::numbering::hex::CORNERS;
-use super::{HexMesh, NodeId, Tags};
+use super::{HexMesh, NodeId};
 use crate::geometry::{Aabb, Point};
 use crate::parallel;
 
@@ -112,7 +112,7 @@ pub fn hex_grid(bounds: Aabb, options: &GridOptions) -> Result<HexMesh, GridErro
     Ok(HexMesh {
         positions: parallel::collect(sx * sy * (nz + 1), position),
         hexes: parallel::collect(nx * ny * nz, hex),
-        tags: Tags::default(),
+        ..HexMesh::default()
     })
 }
 

@@ -1,6 +1,6 @@
 //! Hex meshes.
 
-use super::{NodeId, Tags};
+use super::{BoundaryGroups, NodeId, Tags};
 use crate::geometry::{Aabb, Point};
 
 /// A mesh of hexahedra, as a structure of arrays. Nodes of a hex are in the order of VTK_HEXAHEDRON.
@@ -12,6 +12,8 @@ pub struct HexMesh {
     pub hexes: Vec<[NodeId; 8]>,
     /// Names that the file gave to the hexes.
     pub tags: Tags,
+    /// Groups of boundary faces.
+    pub groups: BoundaryGroups,
 }
 
 impl HexMesh {

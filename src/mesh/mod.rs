@@ -1,5 +1,6 @@
 //! Meshes: ids, structure-of-arrays meshes, topology, checks, quality.
 
+mod boundary_groups;
 pub mod check;
 mod distance;
 mod faces;
@@ -16,6 +17,7 @@ mod tags;
 pub mod topology;
 mod volume;
 
+pub use boundary_groups::BoundaryGroups;
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
 pub use distance::{Distance, Distances, Triangles};
 pub use faces::Faces;

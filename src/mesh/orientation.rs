@@ -2,6 +2,7 @@
 
 use super::check::listed;
 use super::numbering::hex::{CORNERS, EDGE_BETWEEN, EDGES, NONE};
+use super::topology::{Side, hex_of};
 use super::{HexId, HexMesh};
 use crate::geometry::Point;
 use crate::parallel;
@@ -36,7 +37,7 @@ pub struct InvertedHexes(pub Vec<HexId>);
 /// assert_eq!(mesh.hexes, [[0, 1, 2, 3, 4, 5, 6, 7].map(NodeId)]);
 /// ```
 pub fn orient_hexes(mesh: &mut HexMesh) -> Result<usize, InvertedHexes> {
-    let HexMesh { positions, hexes, .. } = mesh;
+    let HexMesh { positions, hexes, groups, .. } = mesh;
     let turned = |h: usize| {
         let corners = inverted_corners(&hexes[h].map(|n| positions[n.index()]));
         (corners != 0).then_some((HexId::new(h), corners == ALL))
@@ -49,7 +50,20 @@ pub fn orient_hexes(mesh: &mut HexMesh) -> Result<usize, InvertedHexes> {
     for (h, _) in &found {
         hexes[h.index()].rotate_left(4);
     }
+    if !groups.is_empty() {
+        let is_turned = |h: HexId| found.binary_search_by_key(&h, |&(turned, _)| turned).is_ok();
+        groups.renumber(|side| if is_turned(hex_of(side)) { upside_down(side) } else { side });
+    }
     Ok(found.len())
+}
+
+/// The number of a side once its hex has its bottom as its top.
+fn upside_down(side: Side) -> Side {
+    match side % 6 {
+        0 => side + 1,
+        1 => side - 1,
+        _ => side,
+    }
 }
 
 /// Every corner, in the result of [`inverted_corners`].

@@ -1,6 +1,6 @@
 //! The boundary surface on which boundary nodes are kept: patches that meet at curves.
 //!
-//! 1. Faces that meet at less than the ridge angle belong to one patch.
+//! 1. Faces that meet at less than the ridge angle and have the same label belong to one patch.
 //! 2. The other edges are curves, one for each pair of patches (a patch with itself at a crease that ends inside it).
 //! 3. A patch whose normals all agree is a plane, a curve whose edges all agree is straight: there nothing is looked
 //!    up, and nodes stay to the last bits. On the others a node goes to the nearest point.
@@ -19,6 +19,8 @@ const SAME: f64 = 1e-9;
 pub struct BoundarySurface {
     patches: Vec<Piece>,
     curves: Vec<Piece>,
+    /// The patches with each label, ascending.
+    patches_with: BTreeMap<u32, Vec<u32>>,
     /// The curve between two patches, the lesser first.
     curve_between: BTreeMap<[u32; 2], u32>,
     /// All triangles, and the patch of each.
@@ -63,6 +65,11 @@ impl BoundarySurface {
     /// Patches of a surface; edges at which faces meet at more than `ridge_degrees` are curves, as are edges of any
     /// other number of faces than two. Node ids are in range, positions finite.
     pub fn new(surface: &impl Faces, ridge_degrees: f64) -> Self {
+        Self::of_groups(surface, ridge_degrees, |_| 0)
+    }
+
+    /// The same, with curves also between faces of different groups, which `label` tells.
+    pub fn of_groups(surface: &impl Faces, ridge_degrees: f64, label: impl Fn(usize) -> u32) -> Self {
         let edges = Edges::of(surface);
         let uses = EdgeUses::of(&edges);
         let positions = surface.positions();
@@ -76,7 +83,8 @@ impl BoundarySurface {
             let faces: Vec<usize> = faces_at(e).collect();
             let &[f, g] = faces.as_slice() else { return false };
             let cosine = normals[f].dot(normals[g]);
-            (if disagrees(surface, &uses, e) { -cosine } else { cosine }) > ridge_cosine
+            label(f) == label(g)
+                && (if disagrees(surface, &uses, e) { -cosine } else { cosine }) > ridge_cosine
         };
         let mut sets = Sets::new(surface.face_count());
         let mut ridges = Vec::new();
@@ -91,6 +99,13 @@ impl BoundarySurface {
         let patch_of_face = sets.numbers();
         let (triangles, patch_of_triangle) = triangles(surface, &patch_of_face);
         let patch_count = patch_of_face.iter().max().map_or(0, |&p| p as usize + 1);
+        let mut patches_with: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for (f, &patch) in patch_of_face.iter().enumerate() {
+            let patches = patches_with.entry(label(f)).or_default();
+            if patches.last().is_none_or(|&last| last < patch) {
+                patches.push(patch);
+            }
+        }
         let mut by_patch = vec![Vec::new(); patch_count];
         for (triangle, &patch) in triangles.iter().zip(&patch_of_triangle) {
             by_patch[patch as usize].push(*triangle);
@@ -102,6 +117,7 @@ impl BoundarySurface {
         }
         Self {
             patches: by_patch.into_iter().map(|t| Piece::new(t, unit_normal)).collect(),
+            patches_with,
             curve_between: by_pair.keys().copied().zip(0..).collect(),
             curves: by_pair
                 .into_values()
@@ -115,6 +131,15 @@ impl BoundarySurface {
     pub fn patch_at(&self, p: Point) -> Option<u32> {
         let (nearest, patch) = self.triangles.as_ref()?;
         Some(patch[nearest.nearest(p)?.triangle])
+    }
+
+    /// The patch nearest to `p` of those with a label; `None` if there is none.
+    pub fn patch_with(&self, label: u32, p: Point) -> Option<u32> {
+        if self.patches_with.len() == 1 {
+            return self.patch_at(p);
+        }
+        let patches = self.patches_with.get(&label)?.iter().copied();
+        patches.min_by(|&a, &b| self.distance_to_patch(a, p).total_cmp(&self.distance_to_patch(b, p)))
     }
 
     /// The curve between two patches, or within one.

@@ -16,7 +16,7 @@ use crate::io::{AnyMesh, Document};
 use crate::mesh::check::{check_hexes, summary};
 use crate::mesh::quality::{HexQualityReport, hex_quality};
 use crate::mesh::topology::{HexEdges, HexFaces, HexReport, hex_report};
-use crate::mesh::{GridError, GridOptions, MeshHash, NodeId, hex_grid, mesh_hash, orient_hexes};
+use crate::mesh::{GridError, GridOptions, MeshHash, NodeId, TagSet, hex_grid, mesh_hash, orient_hexes};
 
 type Mesh = crate::mesh::HexMesh;
 
@@ -29,6 +29,8 @@ pub struct HexMesh {
     pub(super) mesh: Arc<Mesh>,
     /// Hexes that were numbered inside out, and were turned.
     pub(super) turned: usize,
+    /// Faces in the file that are no boundary faces of the hexes.
+    dropped_faces: usize,
 }
 
 /// What JavaScript shows of a hex mesh.
@@ -41,10 +43,27 @@ struct Info {
     extent: Extent,
     hash: MeshHash,
     turned: usize,
+    grouped_faces: usize,
+    dropped_faces: usize,
+    groups: Vec<Group>,
     /// Null for a mesh without hexes.
     quality: Option<HexQualityReport>,
     /// One line for each kind of defect.
     defects: Vec<String>,
+}
+
+/// A group of boundary faces.
+#[derive(Serialize)]
+struct Group {
+    names: Vec<String>,
+    number: Option<i32>,
+}
+
+impl From<&TagSet> for Group {
+    fn from(set: &TagSet) -> Self {
+        let names = set.groups.iter().chain(&set.object).chain(&set.material);
+        Self { names: names.cloned().collect(), number: set.number }
+    }
 }
 
 /// The grid that JavaScript asked for.
@@ -68,11 +87,12 @@ impl HexMesh {
     /// # Errors
     /// What the format's reader refuses, unknown formats, files of surfaces, and more hexes than memory holds.
     pub fn read(bytes: &[u8], format: Option<String>) -> Result<Self, Failure> {
-        let Document { mesh: AnyMesh::Hexes(mesh), tags, .. } = file::read(bytes, format)? else {
+        let Document { mesh: AnyMesh::Hexes(mesh), tags, dropped_faces, .. } = file::read(bytes, format)?
+        else {
             let message = "the file holds a surface; give a mesh of hexahedra, or make a grid around it";
             return Err(Failure::input("hexes-expected", &message));
         };
-        Self::new(Mesh { tags, ..mesh })
+        Ok(Self { dropped_faces, ..Self::new(Mesh { tags, ..mesh })? })
     }
 
     /// Hexes given as arrays: x, y, z of each node, and the eight nodes of each hex in the order of VTK_HEXAHEDRON.
@@ -100,7 +120,7 @@ impl HexMesh {
             }
             other => other.into(),
         })?;
-        Ok(Self { mesh: Arc::new(mesh), turned: 0 })
+        Ok(Self { mesh: Arc::new(mesh), turned: 0, dropped_faces: 0 })
     }
 
     /// What is known of the mesh: an object with the fields of `HexInfo` in `www/lib/results.ts`.
@@ -131,12 +151,12 @@ impl HexMesh {
             return Err(limit.exceeded(hexes as f64, "give a smaller mesh"));
         }
         let turned = on_pool(|| orient_hexes(&mut mesh)).unwrap_or(0);
-        Ok(Self { mesh: Arc::new(mesh), turned })
+        Ok(Self { mesh: Arc::new(mesh), turned, dropped_faces: 0 })
     }
 }
 
 impl Info {
-    fn of(HexMesh { mesh, turned }: &HexMesh) -> Self {
+    fn of(HexMesh { mesh, turned, dropped_faces }: &HexMesh) -> Self {
         let count = mesh.positions.len();
         let edges = HexEdges::of(count, &mesh.hexes);
         Self {
@@ -144,6 +164,9 @@ impl Info {
             extent: Extent::of(&mesh.positions, &edges.ends),
             hash: mesh_hash(&mesh.positions, &mesh.hexes),
             turned: *turned,
+            grouped_faces: mesh.groups.sides().len(),
+            dropped_faces: *dropped_faces,
+            groups: mesh.groups.tags().sets.iter().map(Group::from).collect(),
             quality: hex_quality(mesh).report(),
             defects: summary(&check_hexes(mesh)).iter().map(ToString::to_string).collect(),
         }

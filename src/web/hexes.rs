@@ -15,7 +15,7 @@ use crate::geometry::Point;
 use crate::io::{self, Document};
 use crate::mesh::check::{check_hexes, summary};
 use crate::mesh::quality::hex_quality;
-use crate::mesh::{FaceId, NodeId, mesh_hash};
+use crate::mesh::{BoundaryGroups, FaceId, NodeId, Tags, mesh_hash};
 use crate::refine::hex::{
     Added, HexForecast, HexOptions, HexPlan, HexRefineError, RefinedHexes, StageForecast, refine_hexes,
 };
@@ -65,6 +65,13 @@ impl Hexes {
     /// The input hex that each hex is part of.
     pub fn parent(&self) -> Uint32Array {
         self.refined.root.as_slice().into()
+    }
+
+    /// The boundary faces that are in groups: two numbers for each, 6 times its hex and its number there, and which of
+    /// the input's groups it is in.
+    pub fn groups(&self) -> Uint32Array {
+        let pairs: Vec<u32> = self.refined.mesh.groups.labels().flat_map(|(side, set)| [side, set]).collect();
+        pairs.as_slice().into()
     }
 
     /// Elements that are larger than asked for, because the deepest level allowed was reached.
@@ -165,7 +172,8 @@ pub fn plan(input: &HexMesh, options: JsValue) -> Result<JsValue, Failure> {
     to_object(&plan.map_err(|error| affordable.failure(error))?)
 }
 
-/// A refined mesh, given back as arrays, as the bytes of a file. `input`, which it was made from, tells the tags.
+/// A refined mesh, given back as arrays, as the bytes of a file. `input`, which it was made from, tells the tags and
+/// what the groups of boundary faces are.
 ///
 /// # Errors
 /// If the arrays do not fit together, there is no such format, or it holds no hexes.
@@ -176,15 +184,31 @@ pub fn export(
     hexes: Vec<u32>,
     level: Vec<u8>,
     parent: &[u32],
+    groups: &[u32],
     format: &str,
 ) -> Result<Uint8Array, Failure> {
     let format = format_named(format)?;
-    let mesh = hex_mesh(nodes, hexes)?;
+    let mut mesh = hex_mesh(nodes, hexes)?;
+    mesh.groups = boundary_groups(groups, mesh.hexes.len(), input.mesh.groups.tags())?;
     check_parents(parent, mesh.hexes.len(), input.mesh.hexes.len())?;
     let tags = input.mesh.tags.inherited(parent);
     let parent = parent.iter().copied().map(FaceId).collect();
     let document = Document { tags, level, parent, ..Document::from(mesh) };
     Ok(on_pool(|| io::write(&document, format))?.as_slice().into())
+}
+
+/// The groups that [`Hexes::groups`] told.
+fn boundary_groups(pairs: &[u32], hexes: usize, tags: &Tags) -> Result<BoundaryGroups, Failure> {
+    let (pairs, rest) = pairs.as_chunks::<2>();
+    if pairs.is_empty() && rest.is_empty() {
+        return Ok(BoundaryGroups::default());
+    }
+    let (sides, of_element): (Vec<u32>, Vec<u32>) = pairs.iter().map(|&[side, set]| (side, set)).unzip();
+    let is_in_range = sides.last().is_none_or(|&last| (last as usize) < 6 * hexes);
+    let groups = BoundaryGroups::new(sides, Tags { sets: tags.sets.clone(), of_element });
+    groups.filter(|_| is_in_range && rest.is_empty()).ok_or_else(|| {
+        Failure::input("groups-invalid", "the groups of boundary faces are not those of the mesh")
+    })
 }
 
 /// A measure of each hex, by its name in `HexQuality`.

@@ -23,6 +23,11 @@ Hexahedra
 2
 1 2 5 4 7 8 11 10 3
 2 3 6 5 8 9 12 11 7
+Quadrilaterals
+3
+1 4 10 7 5
+3 6 12 9 9
+2 5 11 8 4
 End
 `;
 
@@ -74,6 +79,12 @@ describe.each([1, 2, 4])('hexes on %i threads', (threads) => {
       meanEdge: 1,
       bounds: { min: [0, 0, 0], max: [2, 1, 1] },
       turned: 0,
+      groupedFaces: 2,
+      droppedFaces: 1,
+      groups: [
+        { names: [], number: 5 },
+        { names: [], number: 9 },
+      ],
       defects: [],
       quality: { scaledJacobian: { min: 1, max: 1 }, volume: { mean: 1 }, totalVolume: 2, notPositive: 0 },
     });
@@ -106,6 +117,9 @@ describe.each([1, 2, 4])('hexes on %i threads', (threads) => {
     expect(again.nodes).toEqual(refined.nodes);
     expect(again.hexes).toEqual(refined.hexes);
     expect(again.info.hash).toBe(refined.hash);
+    expect(refined.groupedFaces).toHaveLength(2 * 8);
+    expect(again.info).toMatchObject({ groupedFaces: 8, droppedFaces: 0 });
+    expect(again.info.groups.map(({ number, names }) => number ?? names[0])).toEqual([5, 9]);
     const medit = await (await mesher.refineHexes(again)).export('medit');
     const references = new TextDecoder().decode(medit).match(/^(\d+ ){8}(?=[37]$)/gm);
     expect(references).toHaveLength(16);

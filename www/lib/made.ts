@@ -106,6 +106,12 @@ export class RefinedHexes extends Made {
   readonly level: Uint8Array;
   /** The input hex that each hex is part of. */
   readonly parent: Uint32Array;
+  /**
+   * The boundary faces that are in groups of the input's, two numbers for each: 6 times its hex and its number there, and
+   * the group's place in `info.groups` of the input. The faces of a hex are those between its nodes 0 3 2 1, 4 5 6 7,
+   * 0 1 5 4, 1 2 6 5, 2 3 7 6 and 0 4 7 3.
+   */
+  readonly groupedFaces: Uint32Array;
   /** Elements that were refined beyond those asked for, and why. */
   readonly added: AddedHexes;
   /** What each stage did, coarse to fine. */
@@ -121,6 +127,7 @@ export class RefinedHexes extends Made {
     this.hexes = data.hexes;
     this.level = data.level;
     this.parent = data.parent;
+    this.groupedFaces = data.groupedFaces;
     this.added = data.added;
     this.stages = data.stages;
     this.turned = data.turned;
@@ -133,7 +140,7 @@ export class RefinedHexes extends Made {
   }
 
   /**
-   * The mesh as a file, with the tags that the input's file gave to its hexes.
+   * The mesh as a file, with the tags that the input's file gave to its hexes and to their boundary faces.
    *
    * @throws {@link OptionsError} if there is no such format, or it holds no hexes.
    */
@@ -146,7 +153,7 @@ export class RefinedHexes extends Made {
 
   #arrays(): HexArraysMade {
     this.refuseDetached();
-    const { nodes, hexes, level, parent } = this;
-    return { nodes, hexes, level, parent };
+    const { nodes, hexes, level, parent, groupedFaces } = this;
+    return { nodes, hexes, level, parent, groupedFaces };
   }
 }

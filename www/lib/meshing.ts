@@ -112,8 +112,9 @@ export class Meshing {
     },
     refineHexes: ({ input, options }) => hexData(this.#bindings.refineHexes(this.#hexes(input), options)),
     exportHexes: ({ input, mesh, format }) => {
-      const { nodes, hexes, level, parent } = mesh;
-      const result = this.#bindings.exportHexes(this.#hexes(input), nodes, hexes, level, parent, format);
+      const { nodes, hexes, level, parent, groupedFaces } = mesh;
+      const from = this.#hexes(input);
+      const result = this.#bindings.exportHexes(from, nodes, hexes, level, parent, groupedFaces, format);
       return { result, transfer: [result.buffer] };
     },
     hexQuality: ({ mesh, metric }) => {
@@ -197,7 +198,7 @@ function quadData(refined: mesher.Quads): Answer<QuadData> {
 function hexData(refined: hexes.Hexes): Answer<HexData> {
   try {
     const { nodes, level, parent } = arraysOf(refined);
-    const arrays: HexArraysMade = { nodes, hexes: refined.hexes(), level, parent };
+    const arrays: HexArraysMade = { nodes, hexes: refined.hexes(), level, parent, groupedFaces: refined.groups() };
     const result: HexData = {
       ...arrays,
       ...factsOf(refined),

@@ -56,6 +56,7 @@ export interface QuadData extends QuadArrays {
 export interface HexArraysMade extends HexArrays {
   level: Uint8Array;
   parent: Uint32Array;
+  groupedFaces: Uint32Array;
 }
 
 /** A refined hex mesh. */

@@ -1,12 +1,15 @@
 //! Parts put together: instances with their places, and the mesh that they make.
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
-use super::lines::Keyword;
+use super::lines::{Keyword, Lines};
 use super::part::{ElementSet, Part};
+use super::surfaces::{NamedFaces, SurfaceLine, Surfaces, read_surface};
 use super::{MATERIAL, NUMBER, OBJECT};
 use crate::geometry::Point;
 use crate::io::cell_collector::{CellAttributes, CellCollector};
+use crate::io::cell_kind::CellKind;
 use crate::io::refusal::{code, refuse};
 use crate::io::tag_interner::CellTags;
 use crate::io::{Document, Format, ReadError};
@@ -26,13 +29,16 @@ pub(super) struct Model {
     /// What stands outside of parts, then the parts.
     parts: Vec<Part>,
     part_of_name: HashMap<String, usize>,
-    instances: Vec<Instance>,
+    instances: Vec<Place>,
     instance_of_name: HashMap<String, usize>,
+    surfaces: Vec<SurfaceLine>,
     current: usize,
     in_instance: bool,
 }
 
-struct Instance {
+/// A part where it stands.
+#[derive(Clone, Copy)]
+struct Place {
     part: usize,
     placement: Placement,
 }
@@ -77,6 +83,7 @@ impl Model {
             part_of_name: HashMap::new(),
             instances: Vec::new(),
             instance_of_name: HashMap::new(),
+            surfaces: Vec::new(),
             current: 0,
             in_instance: false,
         }
@@ -125,9 +132,14 @@ impl Model {
             return Err(keyword.refuse(code::INCONSISTENT, message));
         };
         self.instance_of_name.insert(name.to_ascii_uppercase(), self.instances.len());
-        self.instances.push(Instance { part, placement });
+        self.instances.push(Place { part, placement });
         self.in_instance = true;
         Ok(())
+    }
+
+    /// Reads the data of `*SURFACE`.
+    pub fn read_surface(&mut self, keyword: &Keyword, lines: &mut Lines<'_>) {
+        self.surfaces.extend(read_surface(keyword, lines, self.current));
     }
 
     /// Ends an instance.
@@ -147,12 +159,20 @@ impl Model {
         let mut positions = Vec::with_capacity(count);
         let mut collector = CellCollector::new(Format::Inp, count, 0);
         let mut tags = CellTags::new(self.size);
-        for (index, instance) in placed {
-            let part = &self.parts[instance.part];
+        let instances: Vec<usize> = self.instances.iter().map(|instance| instance.part).collect();
+        let surfaces = Surfaces::new(&self.surfaces, &self.parts, (&instances, &self.instance_of_name));
+        let named = |(index, place): &(Option<usize>, Place)| -> usize {
+            surfaces.of(place.part, *index).map(|faces| faces.elements.places().len()).sum()
+        };
+        self.refuse_beyond(PLACES, placed.iter().map(named).sum(), "faces of surfaces")?;
+        for (index, place) in placed {
+            let part = &self.parts[place.part];
             let first = positions.len() as i64;
-            positions.extend(part.positions.iter().map(|&point| instance.placement.apply(point)));
+            positions.extend(part.positions.iter().map(|&point| place.placement.apply(point)));
             collect(part, index, first, &mut collector, &mut tags)?;
+            collect_faces(part, surfaces.of(place.part, index), first, &mut collector, &mut tags)?;
         }
+        collector.drop_faces(surfaces.lost);
         let attributes = CellAttributes { tags: Some(tags), ..CellAttributes::default() };
         collector.finish(positions, attributes)
     }
@@ -170,8 +190,8 @@ impl Model {
 
     /// What makes up the mesh, with the index of each that is an instance by name. Nodes outside of parts
     /// belong to it only if elements do: else they are reference points.
-    fn placed(&self) -> Vec<(Option<usize>, Instance)> {
-        let whole = |part| (None, Instance { part, placement: Placement::default() });
+    fn placed(&self) -> Vec<(Option<usize>, Place)> {
+        let whole = |part| (None, Place { part, placement: Placement::default() });
         let mut placed = Vec::new();
         if self.parts.len() == 1 || !self.parts[0].elements.is_empty() {
             placed.push(whole(0));
@@ -179,9 +199,7 @@ impl Model {
         if self.instances.is_empty() {
             placed.extend((1..self.parts.len()).map(whole));
         }
-        let named = self.instances.iter().enumerate();
-        placed
-            .extend(named.map(|(index, i)| (Some(index), Instance { part: i.part, placement: i.placement })));
+        placed.extend(self.instances.iter().enumerate().map(|(index, &place)| (Some(index), place)));
         placed
     }
 }
@@ -208,6 +226,37 @@ fn collect(
         }
         collector.push(element.kind, nodes, Some(element.line))?;
         tags.push(set);
+    }
+    Ok(())
+}
+
+/// Hands faces of hexahedra to the collector, with the names of their surfaces.
+fn collect_faces<'a>(
+    part: &Part,
+    surfaces: impl Iterator<Item = NamedFaces<'a>>,
+    first_node: i64,
+    collector: &mut CellCollector,
+    tags: &mut CellTags,
+) -> Result<(), ReadError> {
+    let mut known: Option<(&Rc<str>, u32)> = None;
+    for NamedFaces { line, elements } in surfaces {
+        let set = match known {
+            Some((name, set)) if Rc::ptr_eq(name, &line.name) => set,
+            _ => {
+                let mut set = TagSet::default();
+                add_label(&mut set, &line.name);
+                tags.intern(set, Format::Inp)?
+            }
+        };
+        known = Some((&line.name, set));
+        for &element in elements.places() {
+            let Some(nodes) = part.nodes_of_face(element, line.face) else {
+                collector.drop_faces(1);
+                continue;
+            };
+            collector.push(CellKind::Quad, &nodes.map(|n| first_node + i64::from(n)), None)?;
+            tags.push(set);
+        }
     }
     Ok(())
 }

@@ -241,6 +241,22 @@ impl Part {
         self.nodes.len() + self.sets.len() + self.sets.iter().map(|set| set.members.len()).sum::<usize>()
     }
 
+    /// The members of the set with this name, in capitals, of the part or of an instance.
+    pub fn set_members(&self, name: &str, instance: Option<usize>) -> Option<&[u32]> {
+        let set = self.set_of_name.get(&(instance, name.to_owned()))?;
+        Some(&self.sets[*set].members)
+    }
+
+    /// The names, in capitals, of sets that are of an instance, each with the instance.
+    pub fn sets_of_instances(&self) -> impl Iterator<Item = (&str, usize)> {
+        self.set_of_name.keys().filter_map(|(instance, name)| Some((name.as_str(), (*instance)?)))
+    }
+
+    /// The place of the element with this number.
+    pub fn place_of(&self, number: i64) -> Option<u32> {
+        self.element_numbers.index(number)
+    }
+
     /// The nodes of an element, as indices into the positions.
     pub fn nodes_of(&self, element: &Element) -> &[u32] {
         &self.nodes[element.first_node..element.first_node + usize::from(element.node_count)]

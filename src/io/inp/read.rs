@@ -41,6 +41,10 @@ fn read_keyword(keyword: &Keyword, lines: &mut Lines<'_>, model: &mut Model) -> 
             }
             None => model.current(keyword)?.read_set(keyword, lines, None)?,
         },
+        "SURFACE" => {
+            model.read_surface(keyword, lines);
+            return Ok(false);
+        }
         "PART" => model.begin_part(keyword)?,
         "END PART" => model.end_part(),
         "INSTANCE" => {

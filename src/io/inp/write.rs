@@ -36,7 +36,8 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     for &(size, kind) in kinds {
         write_elements(&mut file, &view, size, kind);
     }
-    for (name, members) in element_sets(view.tags) {
+    write_surfaces(&mut file, &view);
+    for (name, members) in members_of_labels(view.tags) {
         file.word("*ELSET, ELSET=").word(&name).word("\n");
         file.items(members.len().div_ceil(PER_LINE), |line, row| {
             let members = &members[row * PER_LINE..members.len().min((row + 1) * PER_LINE)];
@@ -78,8 +79,20 @@ fn short_float(line: &mut Text, value: f64) {
     line.word(&digits.into_iter().find(|text| text.len() <= NUMBER_WIDTH).unwrap_or_default());
 }
 
+/// The boundary faces of hexes that are in groups, as surfaces.
+fn write_surfaces(file: &mut Text, view: &CellView<'_>) {
+    let sides = view.groups.sides();
+    for (name, members) in members_of_labels(view.groups.tags()) {
+        file.word("*SURFACE, TYPE=ELEMENT, NAME=").word(&name).word("\n");
+        file.items(members.len(), |line, index| {
+            let side = sides[members[index] as usize];
+            line.integer(side / 6 + 1).word(", S").integer(side % 6 + 1).word("\n");
+        });
+    }
+}
+
 /// The elements of each label, in order of first use.
-fn element_sets(tags: &Tags) -> Vec<(String, Vec<u32>)> {
+fn members_of_labels(tags: &Tags) -> Vec<(String, Vec<u32>)> {
     let mut names = Names::default();
     let labels: Vec<Vec<usize>> = tags
         .sets

@@ -1,13 +1,12 @@
 //! Reads MEDIT meshes: one section after the other.
 
-use std::collections::HashMap;
-
 use super::SHARP;
 use crate::geometry::Point;
 use crate::io::cell_collector::{CellAttributes, CellCollector};
 use crate::io::cell_kind::CellKind;
 use crate::io::refusal::{code, excerpt, refuse};
 use crate::io::tag_interner::CellTags;
+use crate::io::tag_numbers::Names;
 use crate::io::tokens::Tokens;
 use crate::io::{Document, Format, ReadError};
 use crate::mesh::NodeId;
@@ -187,7 +186,7 @@ impl<'a> MeditFile<'a> {
             })?;
             features.corners.push((NodeId::new(node), SHARP));
         }
-        let tags = CellTags::from_numbers(&self.references, &HashMap::new());
+        let tags = CellTags::from_numbers(&self.references, &Names::default(), |_| false);
         cells.finish(self.positions, CellAttributes { tags: Some(tags), ..CellAttributes::default() })
     }
 }

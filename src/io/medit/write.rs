@@ -7,7 +7,7 @@ use crate::io::refusal::{code, refuse_writing};
 use crate::io::tag_numbers::{cell_numbers, has_no_names, labels, number_sets};
 use crate::io::text::Text;
 use crate::io::{Document, Format, WriteError};
-use crate::mesh::{Features, NodeId};
+use crate::mesh::{Features, NodeId, Tags};
 
 /// The file as bytes: the same for any number of threads.
 pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
@@ -15,7 +15,8 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     view.refuse_polygons(Format::Medit)?;
     let mut file = Text::default();
     file.word("MeshVersionFormatted 2\nDimension 3\n");
-    write_names(&mut file, &view);
+    write_names(&mut file, view.tags, "reference");
+    write_names(&mut file, view.groups.tags(), "reference of quadrilaterals");
     file.word("\nVertices\n").integer(view.positions.len()).word("\n");
     file.items(view.positions.len(), |line, node| {
         let p = view.positions[node];
@@ -23,7 +24,10 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     });
     let references = cell_numbers(view.tags);
     match view.cells {
-        Cells::Hexes(_) => write_cells(&mut file, &view, &references, "Hexahedra", 8),
+        Cells::Hexes(_) => {
+            write_cells(&mut file, &view, &references, "Hexahedra", 8);
+            write_boundary_faces(&mut file, &view);
+        }
         Cells::Quads(_) => write_cells(&mut file, &view, &references, "Quadrilaterals", 4),
         Cells::Polygons(mesh) => {
             write_cells(&mut file, &view, &references, "Triangles", 3);
@@ -36,11 +40,11 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
 }
 
 /// What the references mean, as comments: readers pass over them.
-fn write_names(file: &mut Text, view: &CellView<'_>) {
-    let named = view.tags.sets.iter().zip(number_sets(view.tags)).filter(|(set, _)| !has_no_names(set));
+fn write_names(file: &mut Text, tags: &Tags, what: &str) {
+    let named = tags.sets.iter().zip(number_sets(tags)).filter(|(set, _)| !has_no_names(set));
     for (set, number) in named {
         let names = labels(set).join(", ").replace(['\n', '\r'], " ");
-        file.word("# reference ").integer(number).word(": ").word(&names).word("\n");
+        file.word("# ").word(what).word(" ").integer(number).word(": ").word(&names).word("\n");
     }
 }
 
@@ -58,6 +62,21 @@ fn write_cells(file: &mut Text, view: &CellView<'_>, references: &[i32], section
             line.integer(u64::from(node.0) + 1).word(" ");
         }
         line.integer(references.get(cell).copied().unwrap_or(0)).word("\n");
+    });
+}
+
+/// The boundary faces of hexes that are in groups.
+fn write_boundary_faces(file: &mut Text, view: &CellView<'_>) {
+    let (faces, references) = (view.boundary_faces(), cell_numbers(view.groups.tags()));
+    if faces.is_empty() {
+        return;
+    }
+    file.word("\nQuadrilaterals\n").integer(faces.len()).word("\n");
+    file.items(faces.len(), |line, face| {
+        for node in faces[face] {
+            line.integer(u64::from(node.0) + 1).word(" ");
+        }
+        line.integer(references[face]).word("\n");
     });
 }
 

@@ -8,21 +8,86 @@ use crate::io::cell_view::{CellView, Cells};
 use crate::io::tag_numbers::labels;
 use crate::io::text::Text;
 use crate::io::{Document, Format, WriteError};
-use crate::mesh::{TagSet, Tags};
+use crate::mesh::{NodeId, TagSet, Tags};
 
 /// The file as bytes: the same for any number of threads.
 pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     let view = CellView::new(document, Format::Msh)?;
     view.refuse_polygons(Format::Msh)?;
-    let dimension = if view.cells.are_hexes() { 3 } else { 2 };
-    let groups = PhysicalGroups::of(view.tags);
+    let parts = parts(&view);
     let mut file = Text::default();
     file.word("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
-    write_names(&mut file, &groups, dimension);
-    write_entities(&mut file, &view, &groups, dimension);
-    write_nodes(&mut file, &view, dimension);
-    write_elements(&mut file, &view, dimension);
+    write_names(&mut file, &parts);
+    write_entities(&mut file, &view, &parts);
+    write_nodes(&mut file, &view, parts[0].dimension);
+    write_elements(&mut file, &parts);
     Ok(file.into_bytes())
+}
+
+/// The cells of one dimension.
+struct Part<'a> {
+    dimension: u8,
+    /// The number of the cell before the first.
+    before: usize,
+    cells: Elements<'a>,
+    tags: &'a Tags,
+    groups: PhysicalGroups,
+}
+
+/// Cells of the mesh, or boundary faces of hexes.
+enum Elements<'a> {
+    Cells(Cells<'a>),
+    Faces(Vec<[NodeId; 4]>),
+}
+
+impl Elements<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Cells(cells) => cells.len(),
+            Self::Faces(faces) => faces.len(),
+        }
+    }
+
+    fn nodes(&self, k: usize) -> &[NodeId] {
+        match self {
+            Self::Cells(cells) => cells.nodes(k),
+            Self::Faces(faces) => &faces[k],
+        }
+    }
+
+    /// Gmsh's type of an element.
+    fn kind(&self, k: usize) -> u8 {
+        match self.nodes(k).len() {
+            3 => 2,
+            4 => 3,
+            _ => 5,
+        }
+    }
+}
+
+/// The mesh's cells, and the boundary faces of hexes that are in groups, if there are any.
+fn parts<'a>(view: &CellView<'a>) -> Vec<Part<'a>> {
+    let dimension = if view.cells.are_hexes() { 3 } else { 2 };
+    let mut groups = PhysicalGroups::of(&view.tags.sets);
+    if view.groups.is_empty() {
+        return vec![Part {
+            dimension,
+            before: 0,
+            cells: Elements::Cells(view.cells),
+            tags: view.tags,
+            groups,
+        }];
+    }
+    if view.tags.sets.is_empty() {
+        groups = PhysicalGroups::of(&[TagSet::default()]);
+    }
+    let faces = Elements::Faces(view.boundary_faces());
+    let tags = view.groups.tags();
+    let before = view.cells.len();
+    vec![
+        Part { dimension, before: 0, cells: Elements::Cells(view.cells), tags: view.tags, groups },
+        Part { dimension: 2, before, cells: faces, tags, groups: PhysicalGroups::of(&tags.sets) },
+    ]
 }
 
 /// The physical groups of each tag set, and the names of those that have one.
@@ -34,15 +99,12 @@ struct PhysicalGroups {
 impl PhysicalGroups {
     /// A group for each label, and one without a name for the number of each set. A set with one label
     /// and a number gives the label that number, as Gmsh's own groups have it.
-    fn of(tags: &Tags) -> Self {
+    fn of(sets: &[TagSet]) -> Self {
         let mut taken = BTreeSet::new();
-        let own: Vec<Option<i32>> = tags
-            .sets
-            .iter()
-            .map(|set| set.number.filter(|&number| number > 0 && taken.insert(number)))
-            .collect();
+        let own: Vec<Option<i32>> =
+            sets.iter().map(|set| set.number.filter(|&number| number > 0 && taken.insert(number))).collect();
         let labels: Vec<Vec<String>> =
-            tags.sets.iter().zip(&own).map(|(set, own)| labels_or_untagged(set, *own)).collect();
+            sets.iter().zip(&own).map(|(set, own)| labels_or_untagged(set, *own)).collect();
         let mut number_of: BTreeMap<&str, i32> = BTreeMap::new();
         for (own, labels) in own.iter().zip(&labels) {
             if let ([label], Some(number)) = (labels.as_slice(), own) {
@@ -93,36 +155,42 @@ fn quotable(name: &str) -> String {
     quoted
 }
 
-fn write_names(file: &mut Text, groups: &PhysicalGroups, dimension: u8) {
-    if groups.names.is_empty() {
+fn write_names(file: &mut Text, parts: &[Part<'_>]) {
+    let count: usize = parts.iter().map(|part| part.groups.names.len()).sum();
+    if count == 0 {
         return;
     }
-    file.word("$PhysicalNames\n").integer(groups.names.len()).word("\n");
-    for (&number, name) in &groups.names {
-        file.integer(dimension).word(" ").integer(number).word(" \"").word(name).word("\"\n");
+    file.word("$PhysicalNames\n").integer(count).word("\n");
+    for part in parts {
+        for (&number, name) in &part.groups.names {
+            file.integer(part.dimension).word(" ").integer(number).word(" \"").word(name).word("\"\n");
+        }
     }
     file.word("$EndPhysicalNames\n");
 }
 
-/// An entity for each tag set, numbered from 1; one in all for a mesh without tags.
-fn write_entities(file: &mut Text, view: &CellView<'_>, groups: &PhysicalGroups, dimension: u8) {
-    let entities = groups.of_set.len().max(1);
+/// An entity for each tag set, numbered from 1; one in all for cells without tags. Surfaces come before volumes.
+fn write_entities(file: &mut Text, view: &CellView<'_>, parts: &[Part<'_>]) {
+    let of = |dimension: u8| parts.iter().find(|part| part.dimension == dimension);
+    let count = |part: &Part<'_>| part.groups.of_set.len().max(1);
     let bounds = Aabb::around(view.positions);
     let corners =
         if view.positions.is_empty() { [[0.0; 3]; 2] } else { [bounds.min, bounds.max].map(Into::into) };
-    file.word("$Entities\n0 0 ").word(if dimension == 2 { "" } else { "0 " }).integer(entities);
-    file.word(if dimension == 2 { " 0\n" } else { "\n" });
-    for entity in 0..entities {
-        file.integer(entity + 1);
-        for coordinate in corners.as_flattened() {
-            file.word(" ").float(*coordinate);
+    file.word("$Entities\n0 0 ").integer(of(2).map_or(0, count));
+    file.word(" ").integer(of(3).map_or(0, count)).word("\n");
+    for part in [of(2), of(3)].into_iter().flatten() {
+        for entity in 0..count(part) {
+            file.integer(entity + 1);
+            for coordinate in corners.as_flattened() {
+                file.word(" ").float(*coordinate);
+            }
+            let groups = part.groups.of_set.get(entity).map_or(&[][..], Vec::as_slice);
+            file.word(" ").integer(groups.len());
+            for &group in groups {
+                file.word(" ").integer(group);
+            }
+            file.word(" 0\n");
         }
-        let groups = groups.of_set.get(entity).map_or(&[][..], Vec::as_slice);
-        file.word(" ").integer(groups.len());
-        for &group in groups {
-            file.word(" ").integer(group);
-        }
-        file.word(" 0\n");
     }
     file.word("$EndEntities\n");
 }
@@ -141,35 +209,36 @@ fn write_nodes(file: &mut Text, view: &CellView<'_>, dimension: u8) {
     file.word("$EndNodes\n");
 }
 
-/// Elements in blocks of one entity and one type, each with the number that its place in the mesh gives.
-fn write_elements(file: &mut Text, view: &CellView<'_>, dimension: u8) {
-    let cells = view.cells;
-    let mut blocks: BTreeMap<(u32, u8), Vec<u32>> = BTreeMap::new();
-    for cell in 0..cells.len() {
-        let set = view.tags.of_element.get(cell).copied().unwrap_or(0);
-        blocks.entry((set, element_type(cells, cell))).or_default().push(cell as u32);
-    }
-    file.word("$Elements\n").integer(blocks.len()).word(" ").integer(cells.len());
-    file.word(" 1 ").integer(cells.len()).word("\n");
-    for ((set, kind), members) in &blocks {
-        file.integer(dimension).word(" ").integer(set + 1).word(" ").integer(*kind);
-        file.word(" ").integer(members.len()).word("\n");
-        file.items(members.len(), |line, index| {
-            let cell = members[index];
-            line.integer(cell + 1);
-            for node in cells.nodes(cell as usize) {
-                line.word(" ").integer(u64::from(node.0) + 1);
-            }
-            line.word("\n");
-        });
+/// Elements in blocks of one entity and one type, each with the number that its place in the mesh gives; boundary faces
+/// of hexes are numbered after these.
+fn write_elements(file: &mut Text, parts: &[Part<'_>]) {
+    let blocks: Vec<_> = parts.iter().map(|part| (part, blocks(part))).collect();
+    let count: usize = parts.iter().map(|part| part.cells.len()).sum();
+    file.word("$Elements\n").integer(blocks.iter().map(|(_, blocks)| blocks.len()).sum::<usize>());
+    file.word(" ").integer(count).word(" 1 ").integer(count).word("\n");
+    for (part, blocks) in &blocks {
+        for ((set, kind), members) in blocks {
+            file.integer(part.dimension).word(" ").integer(set + 1).word(" ").integer(*kind);
+            file.word(" ").integer(members.len()).word("\n");
+            file.items(members.len(), |line, index| {
+                let cell = members[index] as usize;
+                line.integer(part.before + cell + 1);
+                for node in part.cells.nodes(cell) {
+                    line.word(" ").integer(u64::from(node.0) + 1);
+                }
+                line.word("\n");
+            });
+        }
     }
     file.word("$EndElements\n");
 }
 
-fn element_type(cells: Cells<'_>, cell: usize) -> u8 {
-    match cells {
-        Cells::Hexes(_) => 5,
-        _ if cells.nodes(cell).len() == 3 => 2,
-        _ => 3,
+/// The elements of each tag set and type.
+fn blocks(part: &Part<'_>) -> BTreeMap<(u32, u8), Vec<u32>> {
+    let mut blocks: BTreeMap<(u32, u8), Vec<u32>> = BTreeMap::new();
+    for cell in 0..part.cells.len() {
+        let set = part.tags.of_element.get(cell).copied().unwrap_or(0);
+        blocks.entry((set, part.cells.kind(cell))).or_default().push(cell as u32);
     }
+    blocks
 }

@@ -9,6 +9,7 @@ use crate::geometry::Point;
 use crate::io::cell_collector::CellCollector;
 use crate::io::refusal::{code, excerpt, refuse};
 use crate::io::scalars::{Column, Scalar};
+use crate::io::tag_numbers::Names;
 use crate::io::vtk_cells::{cell_attributes, collect_cells, is_wanted};
 use crate::io::{Document, Format, ReadError};
 
@@ -85,7 +86,7 @@ impl Grid {
         }
         let mut collector = CellCollector::new(Format::Vtk, self.positions.len(), 0);
         collect_cells(&mut collector, Format::Vtk, &self.cells.nodes, &self.cells.ends, &self.types)?;
-        let attributes = cell_attributes(self.cell_data, self.cells.ends.len(), &HashMap::new());
+        let attributes = cell_attributes(self.cell_data, &self.types, &Names::default());
         collector.finish(self.positions, attributes)
     }
 }

@@ -2,16 +2,16 @@
 
 use crate::io::cell_view::CellView;
 use crate::io::refusal::{code, refuse_writing};
-use crate::io::tag_numbers::cell_numbers;
 use crate::io::text::Text;
-use crate::io::vtk_cells::{LEVEL, PARENT, TAG, cell_type};
+use crate::io::vtk_cells::{LEVEL, PARENT, QUAD, TAG, cell_type};
 use crate::io::{Document, Format, WriteError};
 
 /// The file as bytes: the same for any number of threads.
 pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     let view = CellView::new(document, Format::Vtk)?;
-    let (cells, nodes) = (view.cells, view.positions.len());
-    let entries = cells.len() + cells.corners().len();
+    let (cells, nodes, boundary) = (view.cells, view.positions.len(), view.boundary_faces());
+    let count = cells.len() + boundary.len();
+    let entries = count + cells.corners().len() + 4 * boundary.len();
     if i32::try_from(entries).is_err() || i32::try_from(nodes).is_err() {
         let message = "the mesh has more than 2^31 nodes or corners, too many for this format; write VTU";
         return Err(refuse_writing(Format::Vtk, code::TOO_LARGE, message));
@@ -23,40 +23,43 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
         let p = view.positions[node];
         line.float(p.x).word(" ").float(p.y).word(" ").float(p.z).word("\n");
     });
-    file.word("CELLS ").integer(cells.len()).word(" ").integer(entries).word("\n");
-    file.items(cells.len(), |line, cell| {
-        let nodes = cells.nodes(cell);
+    file.word("CELLS ").integer(count).word(" ").integer(entries).word("\n");
+    file.items(count, |line, cell| {
+        let nodes =
+            cell.checked_sub(cells.len()).map_or_else(|| cells.nodes(cell), |face| &boundary[face][..]);
         line.integer(nodes.len());
         for node in nodes {
             line.word(" ").integer(node.0);
         }
         line.word("\n");
     });
-    file.word("CELL_TYPES ").integer(cells.len()).word("\n");
-    column(&mut file, cells.len(), |cell| cell_type(cells, cell));
+    file.word("CELL_TYPES ").integer(count).word("\n");
+    column(&mut file, count, |cell| if cell < cells.len() { cell_type(cells, cell) } else { QUAD });
     write_cell_data(&mut file, &view);
     Ok(file.into_bytes())
 }
 
 fn write_cell_data(file: &mut Text, view: &CellView<'_>) {
-    if view.level.is_empty() && view.parent.is_empty() && view.tags.of_element.is_empty() {
+    let numbers = view.numbers();
+    if view.level.is_empty() && view.parent.is_empty() && numbers.is_empty() {
         return;
     }
-    file.word("CELL_DATA ").integer(view.cells.len()).word("\n");
+    file.word("CELL_DATA ").integer(view.cells.len() + view.groups.sides().len()).word("\n");
     let scalars = |file: &mut Text, name: &str, kind: &str| {
         file.word("SCALARS ").word(name).word(" ").word(kind).word(" 1\nLOOKUP_TABLE default\n");
     };
     if !view.level.is_empty() {
         scalars(file, LEVEL, "int");
-        column(file, view.level.len(), |cell| view.level[cell]);
+        let level = view.with_boundary_faces(view.level);
+        column(file, level.len(), |cell| level[cell]);
     }
     if !view.parent.is_empty() {
         scalars(file, PARENT, "unsigned_int");
-        column(file, view.parent.len(), |cell| view.parent[cell].0);
+        let parent = view.with_boundary_faces(view.parent);
+        column(file, parent.len(), |cell| parent[cell].0);
     }
-    if !view.tags.of_element.is_empty() {
+    if !numbers.is_empty() {
         scalars(file, TAG, "int");
-        let numbers = cell_numbers(view.tags);
         column(file, numbers.len(), |cell| numbers[cell]);
     }
 }

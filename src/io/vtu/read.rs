@@ -9,7 +9,7 @@ use crate::geometry::Point;
 use crate::io::cell_collector::CellCollector;
 use crate::io::refusal::{code, refuse};
 use crate::io::scalars::Column;
-use crate::io::tag_numbers::names_from_json;
+use crate::io::tag_numbers::{Names, names_from_json};
 use crate::io::vtk_cells::{cell_attributes, collect_cells, is_wanted};
 use crate::io::{Document, Format, ReadError};
 
@@ -21,7 +21,7 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
     for piece in &file.pieces {
         grid.add(&decoder, piece)?;
     }
-    let mut named = HashMap::new();
+    let mut named = Names::default();
     if let Some(array) = file.field_data.iter().find(|array| array.name == TAG_NAMES)
         && let Some(json) = decoder.decode(array, None)?.into_integers()
     {
@@ -30,7 +30,7 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
     }
     let mut collector = CellCollector::new(Format::Vtu, grid.positions.len(), 0);
     collect_cells(&mut collector, Format::Vtu, &grid.connectivity, &grid.ends, &grid.types)?;
-    let attributes = cell_attributes(grid.cell_data, grid.ends.len(), &named);
+    let attributes = cell_attributes(grid.cell_data, &grid.types, &named);
     collector.finish(grid.positions, attributes)
 }
 

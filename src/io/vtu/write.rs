@@ -5,10 +5,11 @@ use std::borrow::Cow;
 use super::TAG_NAMES;
 use crate::io::cell_view::{CellView, Cells};
 use crate::io::refusal::{code, refuse_writing};
-use crate::io::tag_numbers::{cell_numbers, names_to_json};
+use crate::io::tag_numbers::names_to_json;
 use crate::io::text::Text;
-use crate::io::vtk_cells::{LEVEL, PARENT, TAG, cell_type};
+use crate::io::vtk_cells::{LEVEL, PARENT, QUAD, TAG, cell_type};
 use crate::io::{Document, Format, WriteError};
+use crate::mesh::NodeId;
 use crate::parallel;
 
 /// Bytes of an array that are compressed together: enough that a block pays its own start, little
@@ -26,18 +27,22 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
         .word("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"");
     file.header.word(if cfg!(target_endian = "big") { "BigEndian" } else { "LittleEndian" });
     file.header.word("\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n");
-    if let Some(names) = names_to_json(view.tags) {
+    if let Some(names) = names_to_json(view.tags, view.groups.tags()) {
         file.header.word("<FieldData>\n");
         let attributes = format!("NumberOfTuples=\"{}\"", names.len());
         file.array(TAG_NAMES, "UInt8", &attributes, &names);
         file.header.word("</FieldData>\n");
     }
     file.header.word("<Piece NumberOfPoints=\"").integer(view.positions.len());
-    file.header.word("\" NumberOfCells=\"").integer(view.cells.len()).word("\">\n<Points>\n");
+    let boundary = view.boundary_faces();
+    file.header
+        .word("\" NumberOfCells=\"")
+        .integer(view.cells.len() + boundary.len())
+        .word("\">\n<Points>\n");
     let coordinates = bytemuck::cast_slice(view.positions);
     file.array("Points", "Float64", "NumberOfComponents=\"3\"", coordinates);
     file.header.word("</Points>\n<Cells>\n");
-    write_cells(&mut file, view.cells)?;
+    write_cells(&mut file, view.cells, &boundary)?;
     file.header.word("</Cells>\n<CellData>\n");
     write_cell_data(&mut file, &view);
     file.header.word("</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
@@ -48,41 +53,60 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     Ok(bytes)
 }
 
-fn write_cells(file: &mut File, cells: Cells<'_>) -> Result<(), WriteError> {
-    let (kind, corners) = signed(bytemuck::cast_slice(cells.corners()));
+/// The cells, then the boundary faces that are in groups.
+fn write_cells(file: &mut File, cells: Cells<'_>, boundary: &[[NodeId; 4]]) -> Result<(), WriteError> {
+    let corners = match boundary {
+        [] => Cow::Borrowed(cells.corners()),
+        _ => Cow::Owned([cells.corners(), boundary.as_flattened()].concat()),
+    };
+    let (kind, corners) = signed(bytemuck::cast_slice(&corners));
     file.array("connectivity", kind, "", &corners);
-    let ends: Cow<'_, [u32]> = match cells {
+    let mut ends: Cow<'_, [u32]> = match cells {
         Cells::Polygons(mesh) => Cow::Borrowed(&mesh.offsets[1..]),
         Cells::Quads(quads) => Cow::Owned(regular_ends(quads.len(), 4)?),
         Cells::Hexes(hexes) => Cow::Owned(regular_ends(hexes.len(), 8)?),
     };
+    if !boundary.is_empty() {
+        let after = cells.corners().len();
+        if u32::try_from(after + 4 * boundary.len()).is_err() {
+            return Err(too_many(cells.len() + boundary.len()));
+        }
+        ends.to_mut().extend((1..=boundary.len()).map(|face| (after + 4 * face) as u32));
+    }
     let (kind, ends) = signed(&ends);
     file.array("offsets", kind, "", &ends);
-    let types: Vec<u8> = (0..cells.len()).map(|cell| cell_type(cells, cell)).collect();
+    let mut types: Vec<u8> = (0..cells.len()).map(|cell| cell_type(cells, cell)).collect();
+    types.resize(types.len() + boundary.len(), QUAD);
     file.array("types", "UInt8", "", &types);
     Ok(())
 }
 
 fn write_cell_data(file: &mut File, view: &CellView<'_>) {
     if !view.level.is_empty() {
-        file.array(LEVEL, "UInt8", "", view.level);
+        file.array(LEVEL, "UInt8", "", &view.with_boundary_faces(view.level));
     }
     if !view.parent.is_empty() {
-        let (kind, parents) = signed(bytemuck::cast_slice(view.parent));
+        let parents = view.with_boundary_faces(view.parent);
+        let (kind, parents) = signed(bytemuck::cast_slice(&parents));
         file.array(PARENT, kind, "", &parents);
     }
-    if !view.tags.of_element.is_empty() {
-        file.array(TAG, "Int32", "", bytemuck::cast_slice(&cell_numbers(view.tags)));
+    let numbers = view.numbers();
+    if !numbers.is_empty() {
+        file.array(TAG, "Int32", "", bytemuck::cast_slice(&numbers));
     }
 }
 
 /// Where the cells end in the connectivity if each has `size` nodes.
 fn regular_ends(count: usize, size: usize) -> Result<Vec<u32>, WriteError> {
     if u32::try_from(count * size).is_err() {
-        let message = format!("{count} cells have more than 2^32 corners; split the mesh");
-        return Err(refuse_writing(Format::Vtu, code::TOO_LARGE, message));
+        return Err(too_many(count));
     }
     Ok((1..=count).map(|cell| (cell * size) as u32).collect())
+}
+
+fn too_many(cells: usize) -> WriteError {
+    let message = format!("{cells} cells have more than 2^32 corners; split the mesh");
+    refuse_writing(Format::Vtu, code::TOO_LARGE, message)
 }
 
 /// The ids as bytes of VTK's signed integers: of 32 bits where they fit.

@@ -160,6 +160,13 @@ pub enum Defect {
         /// The hexes of the boundary faces.
         hexes: Vec<HexId>,
     },
+    /// A group of boundary faces has a side that is no boundary face.
+    NoBoundaryFace {
+        /// The hex.
+        hex: HexId,
+        /// The side's number there; or of a hex that does not exist.
+        face: u8,
+    },
     /// The hexes around a node fill neither a ball nor, on the boundary, half of one: its link is no sphere or disc.
     OddLink {
         /// The node.
@@ -210,6 +217,7 @@ impl Defect {
             Self::ThreeSharedNodes { .. } => "threeSharedNodes",
             Self::HangingNodeInFace { .. } => "hangingNodeInFace",
             Self::NonManifoldRim { .. } => "nonManifoldRim",
+            Self::NoBoundaryFace { .. } => "noBoundaryFace",
             Self::OddLink { .. } => "oddLink",
         }
     }
@@ -232,6 +240,7 @@ impl Defect {
             | Self::FaceDisagreement { .. }
             | Self::CrossedFace { .. }
             | Self::ThreeSharedNodes { .. }
+            | Self::NoBoundaryFace { .. }
             | Self::HangingNodeInFace { .. } => Severity::Error,
             Self::UnusedNode { .. }
             | Self::NonManifoldEdge { .. }
@@ -303,6 +312,9 @@ impl std::fmt::Display for Defect {
             Self::NonManifoldRim { edge: [a, b], hexes } => {
                 let (count, hexes) = (hexes.len(), listed(hexes));
                 write!(f, "{count} boundary faces meet at the edge {a}\u{2013}{b}, of hexes {hexes}")
+            }
+            Self::NoBoundaryFace { hex, face } => {
+                write!(f, "face {face} of hex {hex} is in a group of boundary faces, but is none")
             }
             Self::OddLink { node, euler, boundary } => {
                 let (whole, wanted) = if *boundary { ("half a ball", 1) } else { ("a ball", 2) };

@@ -4,7 +4,8 @@
 //! 2. coordinates are finite;
 //! 3. per hex: repeated nodes, corners that are inside out;
 //! 4. hexes with the same nodes;
-//! 5. per face: three or more hexes, two hexes on one side, the same nodes in another order;
+//! 5. per face: three or more hexes, two hexes on one side, the same nodes in another order; groups of boundary faces
+//!    on others;
 //! 6. per edge: faces that share three nodes, boundary faces other than two;
 //! 7. per node: unused, links that are neither a sphere nor, on the boundary, a disc;
 //! 8. boundary nodes inside boundary edges and faces that they are no corner of.
@@ -14,7 +15,7 @@
 use super::{Defect, hanging, not_finite, repeated_node};
 use crate::mesh::orientation::inverted_corners;
 use crate::mesh::topology::{
-    Bins, HexEdges, HexFaces, Links, NodeSets, boundary_faces_at, faces_at_use, hex_of, side_nodes,
+    Bins, HexEdges, HexFaces, Links, NodeSets, Side, boundary_faces_at, faces_at_use, hex_of, side_nodes,
 };
 use crate::mesh::{EdgeId, FaceId, HexId, HexMesh, NodeId};
 use crate::monitor::batches;
@@ -51,6 +52,7 @@ pub fn check_hexes_within(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Vec<D
     defects.extend(parallel::try_gather(faces.nodes.len(), monitor, |f, found| {
         found.extend(face_defect(mesh, &faces, FaceId::new(f)));
     })?);
+    defects.extend(mesh.groups.sides().iter().filter_map(|&side| group_defect(&faces, side)));
     defects.extend(edge_defects(&faces, &edges, monitor)?);
     monitor.proceed()?;
     let links = Links::of(mesh, &faces, &edges);
@@ -150,6 +152,13 @@ fn face_defect(mesh: &HexMesh, faces: &HexFaces, f: FaceId) -> Option<Defect> {
             Some(Defect::NonManifoldFace { face, hexes: sides.iter().map(|&s| hex_of(s)).collect() })
         }
     }
+}
+
+/// Step 5 at one side of a group.
+fn group_defect(faces: &HexFaces, side: Side) -> Option<Defect> {
+    let (hex, face) = (hex_of(side), (side % 6) as u8);
+    let is_boundary = faces.of_hex.get(hex.index()).is_some_and(|f| faces.is_boundary(f[usize::from(face)]));
+    (!is_boundary).then_some(Defect::NoBoundaryFace { hex, face })
 }
 
 /// True if `b` walks around the nodes of `a` the other way: as it should be seen from the hex on the other side.

@@ -36,7 +36,7 @@ pub(super) fn attempt(
         return Ok(Attempt::Made(Box::new(next)));
     }
     let mut local = Local::around(&next, monitor)?;
-    let constraints = local.constraints(surface, monitor)?;
+    let constraints = local.constraints(&next.mesh.labels, surface, monitor)?;
     let mut report = local.optimize(&constraints, monitor)?;
     if report.off_boundary > STRAYED * local.shortest_edge() {
         // A node has passed the end of its patch: it lies in the plane of that, but no more on the boundary.

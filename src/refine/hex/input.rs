@@ -1,5 +1,6 @@
 //! The input, checked and put right.
 
+use super::labels::{Label, label_of};
 use super::options::HexRefineError;
 use super::shift::RIDGE_DEGREES;
 use crate::mesh::check::{Defect, summary};
@@ -59,16 +60,22 @@ fn drop_unused_nodes(mesh: &mut HexMesh) {
     parallel::for_each_mut(&mut mesh.hexes, |_, hex| *hex = hex.map(|n| number[n.index()]));
 }
 
-/// The input's boundary, on which boundary nodes are kept.
+/// The input's boundary, on which boundary nodes are kept, within the groups that they are in.
 pub(super) fn boundary_surface(input: &HexMesh, monitor: &dyn Monitor) -> Result<BoundarySurface, Cancelled> {
     let faces = HexFaces::within(input.positions.len(), &input.hexes, monitor)?;
-    let mut quads = Vec::new();
+    let (mut quads, mut label) = (Vec::new(), Vec::new());
+    let labels: Vec<Label> = input.groups.labels().collect();
     for batch in batches(faces.nodes.len(), monitor) {
-        let boundary = batch?.map(FaceId::new).filter(|&f| faces.is_boundary(f));
-        quads.extend(boundary.map(|f| faces.nodes[f.index()]));
+        for f in batch?.map(FaceId::new).filter(|&f| faces.is_boundary(f)) {
+            quads.push(faces.nodes[f.index()]);
+            label.extend((!labels.is_empty()).then(|| label_of(&labels, faces.sides(f)[0])));
+        }
     }
     drop(faces);
     let surface = QuadMesh { positions: input.positions.clone(), quads };
     monitor.proceed()?;
-    Ok(BoundarySurface::new(&surface, RIDGE_DEGREES))
+    if label.is_empty() {
+        return Ok(BoundarySurface::new(&surface, RIDGE_DEGREES));
+    }
+    Ok(BoundarySurface::of_groups(&surface, RIDGE_DEGREES, |f| label[f]))
 }

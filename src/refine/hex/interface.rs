@@ -1,6 +1,7 @@
 //! The interface: where refined hexes and coarse ones meet.
 
 use super::blocks::in_blocks;
+use super::labels::Label;
 use super::skeleton::{Stars, one_way};
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES_AT;
@@ -11,6 +12,8 @@ use crate::{Cancelled, Monitor, parallel};
 pub(super) struct Interface<'a> {
     pub(super) hexes: &'a [[NodeId; 8]],
     pub(super) refined: &'a [bool],
+    /// The labels of boundary faces.
+    pub(super) labels: &'a [Label],
     /// The nodes, ascending.
     pub(super) nodes: Vec<NodeId>,
     /// Place of each node of the mesh in `nodes`, or [`NONE`].
@@ -59,7 +62,12 @@ impl<'a> Interface<'a> {
         let at = |node: NodeId| if place[node.index()] == NONE { last } else { NodeId(place[node.index()]) };
         let stars = Stars::new(nodes.len() + 1, shell.len(), |k| hexes[shell[k] as usize].map(at));
         monitor.proceed()?;
-        Ok(Self { hexes, refined, nodes, place, shell, stars })
+        Ok(Self { hexes, refined, labels: &[], nodes, place, shell, stars })
+    }
+
+    /// The interface with labels of boundary faces, by their sides.
+    pub(super) fn labelled(self, labels: &'a [Label]) -> Self {
+        Self { labels, ..self }
     }
 
     /// The place of a node of the mesh in `nodes`, if it is there.

@@ -17,6 +17,7 @@
 
 use super::divide::{Divided, divide};
 use super::interface::{Interface, InterfaceFace};
+use super::labels;
 use super::quarters::{Quarter, place_quarters};
 use super::stage::{NO_OCTANT, StageError};
 use super::transition::{Transition, Transitions};
@@ -41,20 +42,33 @@ pub(super) fn layers(
     let divided: Vec<Divided> = cut.iter().map(|&(_, divided)| divided).collect();
     let mut cells = Vec::new();
     let cells_of = divide(positions, &mut cells, &divided, monitor)?;
+    let replaced: Vec<u32> = cut.iter().map(|&(hex, _)| hex).collect();
+    let labels = labels::of_cells(&labels::of_some(interface.labels, &replaced), &divided, &cells_of);
     let (mut transitions, mut quarters, mut quarters_from) = (Transitions::default(), Vec::new(), Vec::new());
-    for (k, &(hex, _)) in cut.iter().enumerate() {
-        for &piece in &cells[cells_of[k] as usize..cells_of[k + 1] as usize] {
-            match Piece::of(interface, hex, octant, piece) {
-                Piece::Whole => transitions.whole.push((hex, piece)),
+    let mut quarter_labels = Vec::new();
+    for (k, &hex) in replaced.iter().enumerate() {
+        for cell in cells_of[k]..cells_of[k + 1] {
+            let piece = cells[cell as usize];
+            let (place, labels_there) = match Piece::of(interface, hex, octant, piece) {
+                Piece::Whole => {
+                    transitions.whole.push((hex, piece));
+                    (transitions.whole.len() - 1, &mut transitions.whole_labels)
+                }
                 Piece::Face(quarter) => {
                     quarters.push(quarter);
                     quarters_from.push(hex);
+                    (quarters.len() - 1, &mut quarter_labels)
                 }
-                Piece::Edge(divided) => transitions.divided.push(Transition { from: hex, divided }),
-            }
+                Piece::Edge(divided) => {
+                    transitions.divided.push(Transition { from: hex, divided });
+                    (transitions.divided.len() - 1, &mut transitions.labels)
+                }
+            };
+            labels_there.extend(labels::after(place, labels::of_one(&labels, cell)));
         }
-        transitions.replaced.push(hex);
     }
+    transitions.replaced = replaced;
+    transitions.labels.extend(labels::after(transitions.divided.len(), quarter_labels));
     let placed =
         place_quarters(&quarters).ok_or_else(|| StageError::Forbidden(transitions.replaced.clone()))?;
     let placed = quarters_from.into_iter().zip(placed).map(|(from, divided)| Transition { from, divided });

@@ -1,11 +1,12 @@
 //! The part of a mesh that smoothing a stage's transition looks at: the hexes around the nodes that may move. All work
 //! and memory for smoothing follows from it, not from the mesh.
 
+use super::labels::{Label, label_of};
 use super::stage::StageResult;
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
-use crate::mesh::topology::HexFaces;
-use crate::mesh::{HexId, NodeId, QuadMesh};
+use crate::mesh::topology::{HexFaces, hex_of};
+use crate::mesh::{FaceId, HexId, NodeId, QuadMesh};
 use crate::optimize::{BoundarySurface, Constraints, OptimizeOptions, OptimizeReport, optimize};
 use crate::{Cancelled, Monitor, parallel};
 
@@ -49,20 +50,27 @@ impl Local {
         })
     }
 
-    /// Where the nodes may go. Only what is said of movable ones counts: a boundary face with such a node is known for
+    /// Where the nodes may go; `labels` are those of the mesh's boundary faces. Only what is said of movable ones counts: a boundary face with such a node is known for
     /// one, since all hexes there are at hand.
     pub(super) fn constraints<'a>(
         &self,
+        labels: &[Label],
         surface: &'a BoundarySurface,
         monitor: &dyn Monitor,
     ) -> Result<Constraints<'a>, Cancelled> {
         let faces = HexFaces::within(self.positions.len(), &self.hexes, monitor)?;
         let has_movable = |nodes: &[NodeId; 4]| nodes.iter().any(|n| self.movable[n.index()]);
-        let boundary = faces.ids().filter(|&f| faces.is_boundary(f)).map(|f| faces.nodes[f.index()]);
-        let quads: Vec<[NodeId; 4]> = boundary.filter(has_movable).collect();
+        let boundary = faces.ids().filter(|&f| faces.is_boundary(f) && has_movable(&faces.nodes[f.index()]));
+        let label = |f: FaceId| {
+            let side = faces.sides(f)[0];
+            label_of(labels, 6 * self.hex_ids[hex_of(side).index()].0 + side % 6)
+        };
+        let (quads, labels): (Vec<[NodeId; 4]>, Vec<u32>) =
+            boundary.map(|f| (faces.nodes[f.index()], label(f))).unzip();
         drop(faces);
         let middle = |quad: &[NodeId; 4]| quad.iter().map(|n| self.positions[n.index()]).sum::<Point>() / 4.0;
-        let patch = |k: usize| surface.patch_at(middle(&quads[k])).expect("a hex mesh has a boundary");
+        let patch =
+            |k: usize| surface.patch_with(labels[k], middle(&quads[k])).expect("a label is of the boundary");
         let patches = parallel::try_collect(quads.len(), monitor, patch)?;
         let boundary = QuadMesh { positions: self.positions.clone(), quads };
         Ok(Constraints::of_boundary(&boundary, &patches, surface))

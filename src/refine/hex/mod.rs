@@ -44,6 +44,7 @@ mod divide;
 mod forecast;
 mod input;
 mod interface;
+mod labels;
 mod layers;
 mod local;
 mod options;

@@ -93,7 +93,7 @@ pub struct Added {
 /// A conforming hex mesh and where its hexes came from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RefinedHexes {
-    /// The mesh. Tags are the input's, by root.
+    /// The mesh. Tags are the input's, by root; groups of boundary faces too, by what each face is part of.
     pub mesh: HexMesh,
     /// The refinement level of each hex; a transition hex has that of the coarse hex it is part of.
     pub level: Vec<u8>,
@@ -112,9 +112,10 @@ pub struct RefinedHexes {
 impl RefinedHexes {
     /// The result after the last stage.
     pub(super) fn new(input: &HexMesh, mesh: StageMesh) -> Self {
-        let StageMesh { positions, hexes, level, root, .. } = mesh;
+        let StageMesh { positions, hexes, level, root, labels, .. } = mesh;
         let tags = input.tags.inherited(&root);
-        Self { mesh: HexMesh { positions, hexes, tags }, level, root, ..Self::default() }
+        let groups = input.groups.on(labels);
+        Self { mesh: HexMesh { positions, hexes, tags, groups }, level, root, ..Self::default() }
     }
 }
 

@@ -140,8 +140,7 @@ struct Made {
 
 impl Made {
     fn of_input(input: &HexMesh) -> Self {
-        let mesh = StageMesh::of_input(input.positions.clone(), input.hexes.clone());
-        Self { mesh, number: 0, reports: Vec::new(), kept: Vec::new() }
+        Self { mesh: StageMesh::of_mesh(input), number: 0, reports: Vec::new(), kept: Vec::new() }
     }
 
     fn push(&mut self, next: StageResult) {

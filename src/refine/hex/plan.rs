@@ -126,7 +126,7 @@ impl<'a> HexPlan<'a> {
         if self.options.method != Method::Auto || base.refined.len() == base.elements.len() {
             return Ok(());
         }
-        let mesh = StageMesh::of_input(self.input.positions.clone(), self.input.hexes.clone());
+        let mesh = StageMesh::of_mesh(&self.input);
         if can_be_joined(&mesh, base.is_refined, monitor)? {
             return Ok(());
         }

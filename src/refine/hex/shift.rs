@@ -1,8 +1,8 @@
 //! Which region keeps a node of the interface, and where the copies of the others go.
 //!
 //! A copy moves by [`THICKNESS`] of the node's shortest edge: towards the mean of the region's hexes within the
-//! domain, of its boundary faces on a smooth boundary, along the ridge on a ridge of the boundary. So copies stay on
-//! the boundary, and on its ridges. A region that owns two ridges at the node, or boundary faces on both
+//! domain, of its boundary faces on a smooth boundary, along the ridge on a ridge of the boundary, be it sharp or the
+//! border of a group of boundary faces. So copies stay on the boundary, and on its ridges. A region that owns two ridges at the node, or boundary faces on both
 //! sides of a ridge that is not its own, cannot move.
 //!
 //! One region keeps the node. In this order it is one
@@ -14,6 +14,7 @@
 //! 6. of refined hexes.
 
 use super::interface::{Interface, Star, StarFace};
+use super::labels::label_of;
 use super::pillow::THICKNESS;
 use super::regions::Regions;
 use crate::geometry::Point;
@@ -45,8 +46,16 @@ pub(super) struct Shifts {
 struct Bound {
     region: u32,
     normal: Point,
+    label: u32,
     center: Point,
     ends: [NodeId; 2],
+}
+
+impl Bound {
+    /// Is an edge between the two a ridge, because they meet at an angle or belong to different groups?
+    fn has_ridge_to(&self, other: &Self) -> bool {
+        self.normal.dot(other.normal) < RIDGE || self.label != other.label
+    }
 }
 
 /// What a region can do.
@@ -107,9 +116,11 @@ impl Shifts {
         self.bounds.clear();
         for face in star.faces.iter().filter(|face| face.second.is_none()) {
             let (hex, side) = face.first;
-            let nodes = &interface.hexes[star.hexes[hex].0 as usize];
+            let id = star.hexes[hex].0;
+            let nodes = &interface.hexes[id as usize];
             let [a, b, c, d] = FACES[usize::from(side)].map(|k| positions[nodes[usize::from(k)].index()]);
             self.bounds.push(Bound {
+                label: label_of(interface.labels, 6 * id + u32::from(side)),
                 region: regions.of_hex[hex],
                 normal: (c - a).cross(d - b).normalize_or_zero(),
                 center: ((a + c) + (b + d)) * 0.25,
@@ -122,7 +133,7 @@ impl Shifts {
     fn along_boundary(&self, positions: &[Point], region: u32) -> (Option<Point>, bool) {
         let own = || self.bounds.iter().filter(move |bound| bound.region == region);
         let Some(first) = own().next() else { return (None, false) };
-        if own().all(|bound| bound.normal.dot(first.normal) >= RIDGE) {
+        if !own().any(|bound| bound.has_ridge_to(first)) {
             let (sum, count) = own().fold((Point::ZERO, 0.0), |(s, n), bound| (s + bound.center, n + 1.0));
             return (Some(sum / count - self.at), false);
         }
@@ -139,7 +150,7 @@ impl Shifts {
     fn ridge_pairs(&self) -> impl Iterator<Item = (&Bound, &Bound, NodeId)> {
         let pairs =
             self.bounds.iter().enumerate().flat_map(|(k, a)| self.bounds[..k].iter().map(move |b| (a, b)));
-        pairs.filter(|(a, b)| a.normal.dot(b.normal) < RIDGE).filter_map(|(a, b)| {
+        pairs.filter(|(a, b)| a.has_ridge_to(b)).filter_map(|(a, b)| {
             let end = a.ends.into_iter().find(|end| b.ends.contains(end))?;
             Some((a, b, end))
         })

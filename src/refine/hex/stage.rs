@@ -6,13 +6,15 @@ use std::borrow::Cow;
 use super::couple::{coupled_middles, middles_of_families};
 use super::divide::Divided;
 use super::interface::Interface;
+use super::labels;
 use super::layers::layers;
 use super::options::Method;
 use super::pillow::{LayerHex, Pillow, pillow};
 use super::quarters::{Quarter, place_quarters};
 use super::transition::{Transition, Transitions, assemble};
 use crate::geometry::Point;
-use crate::mesh::NodeId;
+use crate::mesh::topology::Side;
+use crate::mesh::{HexMesh, NodeId};
 use crate::template::hex::{SPLIT, THIRDS, THIRTEEN, Template};
 use crate::{Cancelled, Monitor};
 
@@ -22,7 +24,7 @@ pub const NO_OCTANT: u8 = u8::MAX;
 /// No element of the forest: the hex is a transition hex.
 pub const NO_ELEMENT: u32 = u32::MAX;
 
-/// A conforming hex mesh between two stages. All arrays but `positions` have one entry a hex.
+/// A conforming hex mesh between two stages. All arrays but `positions` and `labels` have one entry a hex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StageMesh {
     /// Coordinates of the nodes.
@@ -41,6 +43,8 @@ pub struct StageMesh {
     pub root: Vec<u32>,
     /// The number of each hex among the elements of its level, [`NO_ELEMENT`] for transition hexes.
     pub element: Vec<u32>,
+    /// Boundary faces that belong to a group, by side, ascending, each with the group's number.
+    pub labels: Vec<(Side, u32)>,
 }
 
 impl StageMesh {
@@ -53,8 +57,15 @@ impl StageMesh {
             level: vec![0; count],
             root: (0..count as u32).collect(),
             element: (0..count as u32).collect(),
+            labels: Vec::new(),
             hexes,
         }
+    }
+
+    /// The same of a mesh with its groups of boundary faces.
+    pub(super) fn of_mesh(mesh: &HexMesh) -> Self {
+        let labels = mesh.groups.labels().collect();
+        Self { labels, ..Self::of_input(mesh.positions.clone(), mesh.hexes.clone()) }
     }
 }
 
@@ -129,7 +140,8 @@ pub fn stage(
     monitor: &dyn Monitor,
 ) -> Result<StageResult, StageError> {
     assert_eq!(refined.len(), mesh.hexes.len(), "one entry a hex");
-    let interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?;
+    let interface =
+        Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?.labelled(&mesh.labels);
     match method {
         Method::One => {
             let mut positions = mesh.positions.clone();
@@ -174,7 +186,8 @@ pub(super) fn can_be_joined(
     refined: &[bool],
     monitor: &dyn Monitor,
 ) -> Result<bool, Cancelled> {
-    let interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?;
+    let interface =
+        Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?.labelled(&mesh.labels);
     match pillow(&mesh.positions, &interface, monitor) {
         Ok(pillow) => Ok(quarters(&pillow, &mesh.octant).is_ok()),
         Err(StageError::Cancelled(cancelled)) => Err(cancelled),
@@ -215,6 +228,7 @@ fn pillowed_stage(
     let Pillow { positions, hexes, layer, pinched_edges } = pillow;
     let of_coarse = |(hex, divided): (&LayerHex, Divided)| Transition { from: hex.face.coarse, divided };
     let transitions = Transitions {
+        labels: labels::of_layer(&mesh.labels, &hexes, &layer, mesh.positions.len()),
         interface_faces: layer.len(),
         divided: layer.iter().zip(divided).map(of_coarse).collect(),
         pinched_edges,

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::divide::{Divided, divide};
+use super::labels::{self, Label};
 use super::stage::{NO_ELEMENT, NO_OCTANT, StageMesh, StageReport, StageResult};
 use crate::geometry::Point;
 use crate::mesh::NodeId;
@@ -23,6 +24,10 @@ pub(super) struct Transitions {
     pub(super) whole: Vec<(u32, [NodeId; 8])>,
     /// Those that are divided.
     pub(super) divided: Vec<Transition>,
+    /// Labels of boundary faces of those that are divided.
+    pub(super) labels: Vec<Label>,
+    /// And of those that stay.
+    pub(super) whole_labels: Vec<Label>,
     /// Coarse hexes of which nothing is left, ascending.
     pub(super) replaced: Vec<u32>,
     pub(super) interface_faces: usize,
@@ -43,7 +48,7 @@ pub(super) fn assemble(
     let divided_ids = parallel::try_filter(hexes.len(), monitor, |hex| refined[hex])?;
     let is_kept = |hex: usize| !refined[hex] && transitions.replaced.binary_search(&(hex as u32)).is_err();
     let kept = parallel::try_filter(hexes.len(), monitor, is_kept)?;
-    let Transitions { whole, divided: layer, interface_faces, pinched_edges, copies, .. } = transitions;
+    let Transitions { whole, divided: layer, .. } = transitions;
     let mut divided: Vec<Divided> = Vec::with_capacity(divided_ids.len() + layer.len());
     let split_hex = |k: usize| Divided { hex: hexes[divided_ids[k] as usize], template: split, symmetry: 0 };
     parallel::extend(&mut divided, divided_ids.len(), split_hex);
@@ -57,6 +62,18 @@ pub(super) fn assemble(
     parallel::extend(&mut cells, kept.len(), |k| hexes[kept[k] as usize]);
     drop(hexes);
     let cells_of = divide(&mut positions, &mut cells, &divided, monitor)?;
+    let labels = if before.labels.is_empty() {
+        Vec::new()
+    } else {
+        let to_divide = labels::of_some(&before.labels, &divided_ids)
+            .into_iter()
+            .chain(labels::after(divided_ids.len(), transitions.labels));
+        let of_cells = labels::of_cells(&to_divide.collect::<Vec<_>>(), &divided, &cells_of);
+        let mut labels = labels::of_some(&before.labels, &kept);
+        labels.extend(labels::after(kept.len(), of_cells));
+        labels.extend(labels::after(first_transition + in_layer, transitions.whole_labels));
+        labels
+    };
     drop(divided);
     cells.extend(whole.iter().map(|&(_, hex)| hex));
 
@@ -89,15 +106,16 @@ pub(super) fn assemble(
         level: parallel::try_collect(count, monitor, level)?,
         root: parallel::try_collect(count, monitor, |h| before.root[from[h] as usize])?,
         element: parallel::try_collect(count, monitor, element)?,
+        labels,
         positions,
         hexes: cells,
     };
     let report = StageReport {
         refined: divided_ids.len(),
-        interface_faces,
+        interface_faces: transitions.interface_faces,
         transition: count - first_transition,
-        pinched_edges,
-        copies,
+        pinched_edges: transitions.pinched_edges,
+        copies: transitions.copies,
     };
     let layer_nodes = nodes_of(&mesh.hexes[first_transition..], mesh.positions.len());
     Ok(StageResult { mesh, from, first_transition, layer_nodes, report })

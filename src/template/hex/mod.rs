@@ -17,6 +17,7 @@
 //! | [`THIRDS`] | 27 | 64 | Schneiders 1996 |
 //! | [`THIRTEEN`] | 13 | 32 | section 4.3 of the paper on non-regular background meshes |
 
+mod faces;
 mod layer;
 mod quarter;
 mod regular;
@@ -32,6 +33,7 @@ pub use thirteen::THIRTEEN;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{CORNER_AT, CORNERS, EDGES, FACES, SYMMETRIES};
+use faces::FacesOn;
 
 /// A node of a template by its local number. The corners come first, numbered as in `mesh::numbering`.
 pub type LocalNode = u8;
@@ -66,6 +68,7 @@ pub struct Template {
     cell_count: usize,
     parts: [Part; SIDES + 1],
     part_count: usize,
+    faces_on: [FacesOn; 6],
 }
 
 /// The corner numbers of a cell seen in a mirror across x.
@@ -81,6 +84,7 @@ impl Template {
             cell_count: C,
             parts: [Part { side: 0, count: 0, nodes: [0; 8], anchors: [0; 8] }; SIDES + 1],
             part_count: 0,
+            faces_on: FacesOn::of(&at, &cells, 0),
         };
         let mut k = 0;
         while k < 8 {
@@ -96,6 +100,7 @@ impl Template {
             template.cells[c] = cells[c];
             c += 1;
         }
+        template.faces_on = FacesOn::of(&template.at, &template.cells, C);
         let mut side = 0;
         while side <= INSIDE {
             let part = template.part(side);

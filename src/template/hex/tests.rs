@@ -321,3 +321,32 @@ fn the_quarters_table_of_heights_is_true() {
         }
     }
 }
+
+#[test]
+fn cells_faces_in_each_face_of_the_hex_are_those_that_lie_there() {
+    for (template, ..) in ALL {
+        for symmetry in 0..48 {
+            let placed = Placed::new(template, symmetry);
+            for (side, &corners) in FACES.iter().enumerate() {
+                let axis = (0..3).find(|&axis| {
+                    corners
+                        .iter()
+                        .all(|&k| CORNERS[usize::from(k)][axis] == CORNERS[usize::from(corners[0])][axis])
+                });
+                let axis = axis.expect("a face is at one coordinate");
+                let at = f64::from(CORNERS[usize::from(corners[0])][axis]);
+                let on = |cell: &[u32; 8], face: [u8; 4]| {
+                    face.iter().all(|&k| (placed.points[&cell[usize::from(k)]][axis] - at).abs() < 1e-12)
+                };
+                let mut wanted = Vec::new();
+                for (c, cell) in placed.cells.iter().enumerate() {
+                    let faces = (0..6u8).filter(|&f| on(cell, FACES[usize::from(f)]));
+                    wanted.extend(faces.map(|f| (c, f)));
+                }
+                let mut found: Vec<(usize, u8)> = template.faces_on(symmetry, side as u8).collect();
+                found.sort_unstable();
+                assert_eq!(found, wanted, "symmetry {symmetry}, side {side}");
+            }
+        }
+    }
+}

@@ -5,7 +5,7 @@ use hexmill::mesh::{PolygonMesh, check_polygons};
 use serde_json::json;
 use tempfile::TempDir;
 
-use super::{files, folder_with, hexmill, json, succeed};
+use super::{files, folder_holding, folder_with, hexmill, json, succeed};
 
 /// The surface in an OBJ file of `folder`.
 fn surface(folder: &TempDir, file: &str) -> PolygonMesh {
@@ -234,4 +234,23 @@ fn help_shows_worked_examples() {
         let refusal = format!("error[file-not-read]: {}: cannot be read", args[1]);
         assert!(run.stderr.starts_with(&refusal), "{}", run.stderr);
     }
+}
+
+#[test]
+fn groups_of_boundary_faces_go_through() {
+    let mesh = "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n\
+                1 1 1 0\n0 1 1 0\nHexahedra\n1\n1 2 3 4 5 6 7 8 3\nQuadrilaterals\n2\n1 2 3 4 7\n2 3 8 5 9\nEnd\n";
+    let folder = folder_holding("cube.mesh", mesh);
+    let run =
+        hexmill(&folder, &["refine", "cube.mesh", "-o", "fine.msh", "--levels", "1", "--report", "r.json"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("warning: cube.mesh: 1 faces beside the hexes are left out"),
+        "{}",
+        run.stderr
+    );
+    let report = json(&folder, "r.json");
+    assert_eq!((&report["input"]["groupedFaces"], &report["mesh"]["groupedFaces"]), (&1.into(), &4.into()));
+    let stdout = succeed(&folder, &["check", "fine.msh"]);
+    assert!(stdout.contains("8 hexes, 4 boundary faces in groups"), "{stdout}");
 }

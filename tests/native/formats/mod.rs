@@ -6,6 +6,7 @@ mod broken;
 mod foreign;
 mod glb;
 mod golden;
+mod groups;
 mod hostile;
 mod mutations;
 mod round_trip;

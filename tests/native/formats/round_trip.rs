@@ -2,7 +2,7 @@
 
 use hexmill::geometry::Point;
 use hexmill::io::{AnyMesh, Document, Format, ReadError, inp, medit, msh, vtk, vtu};
-use hexmill::mesh::{FaceId, HexMesh, NodeId, PolygonMesh, TagSet, Tags};
+use hexmill::mesh::{FaceId, HexMesh, NodeId, PolygonMesh, TagSet};
 use proptest::prelude::*;
 
 use super::worlds::{as_read, document, hex_grid, mixed_polygons, quad_grid, some_sets, triangles_and_quads};
@@ -35,7 +35,7 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
 pub const FORMATS: [Format; 5] = [Format::Vtu, Format::Vtk, Format::Msh, Format::Inp, Format::Medit];
 
 /// What a format keeps of a tag set.
-fn kept(set: &TagSet, format: Format) -> TagSet {
+pub fn kept(set: &TagSet, format: Format) -> TagSet {
     match format {
         Format::Vtk | Format::Medit => TagSet { number: set.number, ..TagSet::default() },
         // An input deck lists each element set once, so that the order of an element's groups is the file's.
@@ -251,7 +251,7 @@ fn any_mesh(cell: impl Strategy<Value = usize>) -> impl Strategy<Value = AnyMesh
         };
         if sizes[0] == 8 {
             let hexes = (0..sizes.len()).map(|cell| std::array::from_fn(|k| node(cell, k))).collect();
-            return AnyMesh::Hexes(HexMesh { positions, hexes, tags: Tags::default() });
+            return AnyMesh::Hexes(HexMesh { positions, hexes, ..HexMesh::default() });
         }
         let mut mesh = PolygonMesh { positions, ..PolygonMesh::default() };
         for (cell, &size) in sizes.iter().enumerate() {

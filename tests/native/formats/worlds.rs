@@ -39,7 +39,7 @@ pub fn hex_grid(n: u32) -> HexMesh {
             })
             .map(|pairs| std::array::from_fn(|c| pairs[c % 4][c / 4]))
             .collect(),
-        tags: Tags::default(),
+        ..HexMesh::default()
     }
 }
 
@@ -83,10 +83,10 @@ pub fn document(mesh: AnyMesh, sets: Vec<TagSet>) -> Document {
         Tags { sets, of_element }
     };
     Document {
-        mesh,
         tags,
         level: (0..count).map(|cell| (cell % 5) as u8).collect(),
         parent: (0..count as u32).map(|cell| FaceId(cell / 4)).collect(),
+        ..Document::new(mesh)
     }
 }
 

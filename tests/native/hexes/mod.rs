@@ -3,6 +3,7 @@
 mod acceptance;
 mod accepted;
 mod counts;
+mod groups;
 mod judge;
 mod levels;
 mod meshes;

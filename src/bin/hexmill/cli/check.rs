@@ -22,6 +22,7 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     check_outputs(&inputs, &outputs)?;
     let progress = Progress::new(quiet);
     let mut loaded = progress.stage("read", || load(&args.mesh))?;
+    loaded.warn_of_dropped_faces(quiet);
     let empty = Document::from(PolygonMesh::default());
     let document = std::mem::replace(&mut loaded.document, empty);
     let mut mesh = progress.stage("measure", || MeshReport::of(&document, 0));

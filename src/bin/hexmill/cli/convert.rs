@@ -13,7 +13,9 @@ pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {
     format_of(&args.input)?;
     check_outputs(&[("the input", &args.input)], &[("--output", &args.output)])?;
     let progress = Progress::new(quiet);
-    let document = progress.stage("read", || load(&args.input))?.document;
+    let loaded = progress.stage("read", || load(&args.input))?;
+    loaded.warn_of_dropped_faces(quiet);
+    let document = loaded.document;
     let bytes = progress
         .stage("encode", || io::write(&document, format))
         .map_err(|e| Failure::write(&args.output, &e))?;

@@ -75,6 +75,19 @@ pub(crate) fn load(path: &Path) -> Result<Loaded, Failure> {
     Ok(Loaded { path: path.to_owned(), format, bytes: bytes.len() as u64, document })
 }
 
+impl Loaded {
+    /// Warns of faces in a file of hexes that could not be kept.
+    pub(crate) fn warn_of_dropped_faces(&self, quiet: bool) {
+        let count = self.document.dropped_faces;
+        if count > 0 && !quiet {
+            eprintln!(
+                "warning: {}: {count} faces beside the hexes are left out: they are no boundary faces of these",
+                self.path.display()
+            );
+        }
+    }
+}
+
 /// Finds out before any work whether `outputs` can be written: each is a file of its own and none is of `inputs`, which
 /// would be lost, and the folder of each takes new files. Paths are named as on the command line.
 pub(crate) fn check_outputs(inputs: &[(&str, &Path)], outputs: &[(&str, &Path)]) -> Result<(), Failure> {

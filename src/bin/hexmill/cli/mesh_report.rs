@@ -24,6 +24,8 @@ pub(crate) struct Counts {
     pub(crate) quads: usize,
     pub(crate) polygons: usize,
     pub(crate) hexes: usize,
+    /// Boundary faces of hexes that are in groups.
+    pub(crate) grouped_faces: usize,
     bounds: Option<Bounds>,
 }
 
@@ -48,11 +50,13 @@ impl Counts {
     }
 
     pub(crate) fn of_hexes(mesh: &HexMesh) -> Self {
-        Self { hexes: mesh.hexes.len(), ..Self::of_nodes(mesh.positions.len(), mesh.bounds()) }
+        let grouped_faces = mesh.groups.sides().len();
+        Self { hexes: mesh.hexes.len(), grouped_faces, ..Self::of_nodes(mesh.positions.len(), mesh.bounds()) }
     }
 
     fn of_nodes(nodes: usize, around: Aabb) -> Self {
-        Self { nodes, faces: 0, triangles: 0, quads: 0, polygons: 0, hexes: 0, bounds: bounds(around) }
+        let bounds = bounds(around);
+        Self { nodes, faces: 0, triangles: 0, quads: 0, polygons: 0, hexes: 0, grouped_faces: 0, bounds }
     }
 
     /// In words, such as `8 nodes, 6 quads`.
@@ -63,6 +67,7 @@ impl Counts {
             (self.quads, "quads"),
             (self.polygons, "larger polygons"),
             (self.hexes, "hexes"),
+            (self.grouped_faces, "boundary faces in groups"),
         ];
         words.extend(kinds.iter().filter(|(n, _)| *n > 0).map(|(n, kind)| format!("{n} {kind}")));
         if self.faces == 0 && self.hexes == 0 {

@@ -35,6 +35,7 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
+    loaded.warn_of_dropped_faces(quiet);
     let empty = Document::from(PolygonMesh::default());
     let document = std::mem::replace(&mut loaded.document, empty);
     let refined = match document.mesh {
