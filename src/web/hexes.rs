@@ -206,9 +206,10 @@ fn boundary_groups(pairs: &[u32], hexes: usize, tags: &Tags) -> Result<BoundaryG
     let (sides, of_element): (Vec<u32>, Vec<u32>) = pairs.iter().map(|&[side, set]| (side, set)).unzip();
     let is_in_range = sides.last().is_none_or(|&last| (last as usize) < 6 * hexes);
     let groups = BoundaryGroups::new(sides, Tags { sets: tags.sets.clone(), of_element });
-    groups.filter(|_| is_in_range && rest.is_empty()).ok_or_else(|| {
-        Failure::input("groups-invalid", "the groups of boundary faces are not those of the mesh")
-    })
+    let message = "the groups of boundary faces are not those of the mesh";
+    groups
+        .filter(|_| is_in_range && rest.is_empty())
+        .ok_or_else(|| Failure::input("groups-invalid", &message))
 }
 
 /// A measure of each hex, by its name in `HexQuality`.
