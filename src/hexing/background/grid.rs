@@ -1,0 +1,243 @@
+//! A grid along the solid's axes, with lines in its planar surfaces, where the solid is.
+//!
+//! 1. Lines: through planar surfaces, even between them (`lines`).
+//! 2. Cells that the surface touches, and all around these (`touched`, `rows`).
+//! 3. Gaps between them along x that are inside.
+//! 4. A few cells more where cells would touch at an edge or a node only.
+//!
+//! So each cell whose centre is inside has all its neighbours, and none is further from the solid than about two edges.
+
+use glam::DMat3;
+
+use super::lines::{Plane, lines};
+use super::touched::touched;
+use super::volume;
+use crate::geometry::{Aabb, Point};
+use crate::mesh::HexMesh;
+use crate::solid::{SolidModel, Surface, SurfaceClass};
+use crate::{Cancelled, Monitor, Stage, parallel};
+
+/// What [`grid`] is to make.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AlignedGrid {
+    /// How long the hexes' edges are, about, in model units.
+    pub edge_length: f64,
+    /// The directions of the grid's lines, as orthonormal right-handed columns.
+    pub axes: DMat3,
+    /// How the lines are moved along each axis, as a share of an edge from 0 to 1: so that another try may succeed
+    /// where one failed. Between lines that planar surfaces hold there are more of them instead.
+    pub shift: [f64; 3],
+    /// Refuse a grid of more hexes than this.
+    pub max_hexes: u64,
+}
+
+impl AlignedGrid {
+    /// A grid along x, y and z of at most 16 million hexes.
+    pub fn new(edge_length: f64) -> Self {
+        Self { edge_length, axes: DMat3::IDENTITY, shift: [0.0; 3], max_hexes: 16_000_000 }
+    }
+}
+
+/// Why there is no background mesh.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BackgroundError {
+    /// The edge length is no positive number.
+    #[error("the edge length is {0}; give a positive number")]
+    EdgeLength(f64),
+    /// There would be more hexes than allowed.
+    #[error("about {hexes:.3e} hexes are more than the limit of {limit}; raise the edge length or the limit")]
+    TooManyHexes {
+        /// How many hexes, about.
+        hexes: f64,
+        /// The limit.
+        limit: u64,
+    },
+    /// The edge length is too small for the digits of the coordinates.
+    #[error(
+        "an edge length of {edge_length:e} is too small for coordinates that reach {reach:e}; raise it, or move the solid"
+    )]
+    TooFewDigits {
+        /// The edge length.
+        edge_length: f64,
+        /// The greatest coordinate, without its sign.
+        reach: f64,
+    },
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl BackgroundError {
+    /// A stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::EdgeLength(_) => "edge-length-out-of-range",
+            Self::TooManyHexes { .. } => "too-many-hexes",
+            Self::TooFewDigits { .. } => "too-few-digits",
+            Self::Cancelled(_) => "cancelled",
+        }
+    }
+}
+
+const BACKGROUND: Stage = Stage("background");
+
+/// Share of an edge: a planar surface no thicker than this along an axis is perpendicular to it.
+const FLAT: f64 = 0.02;
+
+/// How many of the least steps between coordinates an edge must keep, so that the hexes are alike to three digits.
+const LEAST_STEPS: f64 = 1024.0;
+
+/// About how many hexes an edge length gives: those in the solid, and three layers at its surface.
+pub fn estimate_hexes(solid: &SolidModel, edge_length: f64) -> f64 {
+    let area: f64 = solid.surfaces().iter().map(|surface| surface.area).sum();
+    volume(solid) / (edge_length * edge_length * edge_length) + 3.0 * area / (edge_length * edge_length)
+}
+
+/// Makes the grid. Nodes and hexes are numbered along the first axis, then the second, then the third. The mesh is a
+/// manifold with boundary.
+///
+/// # Errors
+/// See [`BackgroundError`]. The number of hexes is held against the limit before and after their places are found, and
+/// before they are made.
+pub fn grid(
+    solid: &SolidModel,
+    options: &AlignedGrid,
+    monitor: &dyn Monitor,
+) -> Result<HexMesh, BackgroundError> {
+    let &AlignedGrid { edge_length, axes, shift, max_hexes } = options;
+    check(solid, options)?;
+    monitor.checkpoint(BACKGROUND, 0.0)?;
+    let to_grid = axes.transpose();
+    let points = parallel::try_collect(solid.points().len(), monitor, |p| to_grid * solid.points()[p])?;
+    let corners = |t: usize| solid.triangles()[t].map(|p| points[p as usize]);
+    let bounds = Aabb::around(&points);
+    let lines: [Vec<f64>; 3] = std::array::from_fn(|axis| {
+        let normal = axes.col(axis);
+        let planes = solid.surfaces().iter();
+        let planes: Vec<Plane> =
+            planes.filter_map(|s| perpendicular(s, normal, axis, &corners, edge_length)).collect();
+        lines([bounds.min[axis], bounds.max[axis]], &planes, edge_length, shift[axis])
+    });
+    monitor.checkpoint(BACKGROUND, 0.1)?;
+    let shell = touched(&lines, solid.triangles().len(), corners, monitor)?.grown();
+    monitor.checkpoint(BACKGROUND, 0.5)?;
+    let position = |at: [u32; 3]| Point::from([0, 1, 2].map(|i| lines[i][at[i] as usize]));
+    let centre = |at: [u32; 3]| axes * position(at).midpoint(position(at.map(|c| c + 1)));
+    let cells = shell.filled(|cell| solid.contains(centre(cell))).made_manifold();
+    if cells.len() > max_hexes {
+        return Err(BackgroundError::TooManyHexes { hexes: cells.len() as f64, limit: max_hexes });
+    }
+    monitor.checkpoint(BACKGROUND, 0.8)?;
+    let nodes = cells.nodes();
+    let positions = nodes.map(|at| axes * position(at));
+    let mesh = HexMesh { positions, hexes: cells.hexes(&nodes), ..HexMesh::default() };
+    monitor.checkpoint(BACKGROUND, 1.0)?;
+    Ok(mesh)
+}
+
+/// Refuses what cannot be made, before any work.
+fn check(solid: &SolidModel, options: &AlignedGrid) -> Result<(), BackgroundError> {
+    let &AlignedGrid { edge_length, max_hexes, .. } = options;
+    if !(edge_length > 0.0 && edge_length.is_finite()) {
+        return Err(BackgroundError::EdgeLength(edge_length));
+    }
+    let hexes = estimate_hexes(solid, edge_length);
+    // Lines along an axis are counted too: a needle askew has far more of them than cells.
+    let across = solid.diagonal() / edge_length;
+    if hexes.is_nan() || hexes > 2.0 * max_hexes as f64 || across > max_hexes as f64 {
+        return Err(BackgroundError::TooManyHexes { hexes: hexes.max(across), limit: max_hexes });
+    }
+    let bounds = solid.bounds();
+    let reach = bounds.min.abs().max_element().max(bounds.max.abs().max_element());
+    if edge_length < LEAST_STEPS * f64::EPSILON * reach {
+        return Err(BackgroundError::TooFewDigits { edge_length, reach });
+    }
+    Ok(())
+}
+
+/// Where along an axis of the grid a planar surface stands that is perpendicular to it.
+fn perpendicular(
+    surface: &Surface,
+    direction: Point,
+    axis: usize,
+    corners: &impl Fn(usize) -> [Point; 3],
+    edge_length: f64,
+) -> Option<Plane> {
+    let SurfaceClass::Planar { normal } = surface.class else { return None };
+    if normal.dot(direction).abs() < 0.9 {
+        return None;
+    }
+    let along = surface.triangles.iter().flat_map(|&t| corners(t as usize).map(|p| p[axis]));
+    let [least, most] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+    (most - least <= FLAT * edge_length).then_some(Plane { at: least.midpoint(most), area: surface.area })
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::Silent;
+    use crate::mesh::check_hexes;
+    use crate::solid::testing::{cuboid, cylinder, ell, solid};
+
+    #[test]
+    fn planar_surfaces_have_nodes_in_them_exactly() {
+        let solid = solid(&ell());
+        let mesh = grid(&solid, &AlignedGrid::new(0.3), &Silent).unwrap();
+        assert_eq!(check_hexes(&mesh), []);
+        for at in [0.0, 1.0, 2.0] {
+            assert!(mesh.positions.iter().any(|p| p.x == at) && mesh.positions.iter().any(|p| p.y == at));
+        }
+        let bounds = mesh.bounds();
+        assert!(solid.bounds().grown(0.29).min.cmpge(bounds.min).all() && bounds.max.x < 2.0 + 3.0 * 0.4);
+    }
+
+    #[test]
+    fn a_turned_grid_is_the_grid_of_a_turned_solid() {
+        let turn = glam::DQuat::from_xyzw(0.1, -0.2, 0.3, 0.9).normalize();
+        let mut surface = ell();
+        surface.positions.iter_mut().for_each(|p| *p = turn * *p);
+        let straight = grid(&solid(&ell()), &AlignedGrid::new(0.3), &Silent).unwrap();
+        let options = AlignedGrid { axes: DMat3::from_quat(turn), ..AlignedGrid::new(0.3) };
+        let turned = grid(&solid(&surface), &options, &Silent).unwrap();
+        assert_eq!(turned.hexes, straight.hexes);
+        assert!(turned.positions.iter().zip(&straight.positions).all(|(a, &b)| a.distance(turn * b) < 1e-12));
+    }
+
+    #[test]
+    fn cells_are_near_the_solid_or_in_it_and_those_in_it_have_all_neighbours() {
+        let solid = solid(&cylinder(40));
+        let edge_length = 0.11;
+        let mesh = grid(&solid, &AlignedGrid::new(edge_length), &Silent).unwrap();
+        let centre = |hex: &[crate::mesh::NodeId; 8]| {
+            hex.iter().map(|n| mesh.positions[n.index()]).sum::<Point>() / 8.0
+        };
+        let far = mesh.hexes.iter().map(|hex| solid.signed_distance(centre(hex))).fold(0.0, f64::max);
+        assert!(far < 3.0 * edge_length, "{far}");
+        // What is missing around a cell would leave a boundary face at its corners.
+        let faces = crate::mesh::topology::hex_boundary(&mesh.hexes);
+        let rim: std::collections::BTreeSet<_> = faces.iter().flat_map(|(face, _)| *face).collect();
+        let inner = mesh.hexes.iter().filter(|hex| solid.contains(centre(hex)));
+        assert!(inner.flatten().all(|n| !rim.contains(n)));
+        let estimate = estimate_hexes(&solid, edge_length);
+        assert!(
+            (0.7..1.4).contains(&(mesh.hexes.len() as f64 / estimate)),
+            "{} for {estimate}",
+            mesh.hexes.len()
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_made_is_refused_before() {
+        let solid = solid(&cuboid([2, 2, 2]));
+        let refused = |options: AlignedGrid| grid(&solid, &options, &Silent).unwrap_err().code();
+        for edge_length in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(refused(AlignedGrid::new(edge_length)), "edge-length-out-of-range");
+        }
+        for edge_length in [1e-4, 1e-200] {
+            assert_eq!(refused(AlignedGrid::new(edge_length)), "too-many-hexes");
+        }
+        assert_eq!(refused(AlignedGrid { max_hexes: 100, ..AlignedGrid::new(0.2) }), "too-many-hexes");
+        // Larger than the solid: a few cells around it.
+        assert!(grid(&solid, &AlignedGrid::new(50.0), &Silent).unwrap().hexes.len() <= 150);
+    }
+}

@@ -1,0 +1,140 @@
+//! Where the lines of an aligned grid stand along one axis.
+//!
+//! 1. Planar surfaces perpendicular to the axis with more than half of a square of edges, the larger first, take a line
+//!    unless there is one within .45 edges: so thin that cells still are good.
+//! 2. Between two such lines cells are alike and about an edge long.
+//! 3. Beyond the first and the last, or everywhere if there are none, cells are an edge long.
+
+/// Share of a square of edges: a smaller surface moves no line.
+const LEAST_AREA: f64 = 0.5;
+/// Share of an edge: lines are no closer.
+const LEAST_GAP: f64 = 0.45;
+/// Share of an edge: surfaces that are no further apart share a line.
+const SAME: f64 = 0.01;
+/// Lines beyond the solid on each side: what touches it has cells around it.
+const BEYOND: f64 = 3.0;
+
+/// A planar surface perpendicular to the axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Plane {
+    /// Where along the axis.
+    pub at: f64,
+    /// Its area.
+    pub area: f64,
+}
+
+/// The lines around a solid that reaches from `least` to `most`, ascending, [`BEYOND`] it on both sides. `shift` is a
+/// share of an edge, 0 to 1: lines that no surface holds move by it, and between lines that surfaces hold there are
+/// more, the larger it is.
+pub(super) fn lines([least, most]: [f64; 2], planes: &[Plane], edge: f64, shift: f64) -> Vec<f64> {
+    let held = held(planes, edge);
+    let (Some(&first), Some(&last)) = (held.first(), held.last()) else {
+        let steps = (((most - least) / edge - SAME).ceil()).max(1.0);
+        let first = (least + most) / 2.0 + (shift - 0.5 * steps) * edge;
+        return outwards(vec![first], [least, most], edge);
+    };
+    let mut lines = vec![first];
+    for pair in held.windows(2) {
+        let steps = steps(pair[1] - pair[0], edge, shift);
+        lines.extend((1..steps).map(|k| pair[0] + (pair[1] - pair[0]) * f64::from(k) / f64::from(steps)));
+        lines.push(pair[1]);
+    }
+    debug_assert!(lines.last() == Some(&last));
+    outwards(lines, [least, most], edge)
+}
+
+/// Cells between two lines. Only where there is room for it do more lines not make them much shorter.
+fn steps(gap: f64, edge: f64, shift: f64) -> u32 {
+    let edges = gap / edge;
+    let more = if edges > 3.0 { shift } else { 0.0 };
+    (edges + more).round().max(1.0) as u32
+}
+
+/// The lines that surfaces hold, ascending.
+fn held(planes: &[Plane], edge: f64) -> Vec<f64> {
+    let mut groups = groups(planes, edge);
+    groups.retain(|group| group.area > LEAST_AREA * edge * edge);
+    groups.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.at.total_cmp(&b.at)));
+    let mut held: Vec<f64> = Vec::new();
+    for group in groups {
+        if held.iter().all(|line| (line - group.at).abs() >= LEAST_GAP * edge) {
+            held.push(group.at);
+        }
+    }
+    held.sort_by(f64::total_cmp);
+    held
+}
+
+/// Surfaces of one plane as one: where the largest is, with the area of all.
+fn groups(planes: &[Plane], edge: f64) -> Vec<Plane> {
+    let mut sorted = planes.to_vec();
+    sorted.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.area.total_cmp(&b.area)));
+    let of = |group: &[Plane]| {
+        let largest = group.iter().fold(group[0], |a, &b| if b.area > a.area { b } else { a });
+        Plane { at: largest.at, area: group.iter().map(|plane| plane.area).sum() }
+    };
+    sorted.chunk_by(|a, b| b.at - a.at <= SAME * edge).map(of).collect()
+}
+
+/// Adds lines an edge apart on both sides, until they are beyond the solid.
+fn outwards(mut lines: Vec<f64>, [least, most]: [f64; 2], edge: f64) -> Vec<f64> {
+    let (first, last) = (lines[0], lines[lines.len() - 1]);
+    let count = |reach: f64| (reach / edge + BEYOND).ceil().max(0.0) as u32;
+    let below = (1..=count(first - least)).rev().map(|k| first - f64::from(k) * edge);
+    let above = (1..=count(most - last)).map(|k| last + f64::from(k) * edge);
+    lines.splice(0..0, below);
+    lines.extend(above);
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plane(at: f64, area: f64) -> Plane {
+        Plane { at, area }
+    }
+
+    /// The lines within the solid.
+    fn within(extent: [f64; 2], planes: &[Plane], shift: f64) -> Vec<f64> {
+        let all = lines(extent, planes, 1.0, shift);
+        assert!(all.windows(2).all(|pair| (LEAST_GAP..1.6).contains(&(pair[1] - pair[0]))), "{all:?}");
+        assert!(all[2] < extent[0] && all[all.len() - 3] > extent[1], "{all:?}");
+        all.into_iter().filter(|line| (extent[0]..=extent[1]).contains(line)).collect()
+    }
+
+    #[test]
+    fn planes_hold_lines_and_cells_between_them_are_alike() {
+        let found = within([0.0, 7.3], &[plane(0.0, 10.0), plane(7.3, 10.0), plane(2.4, 1.0)], 0.0);
+        let expected = [0.0, 1.2, 2.4, 3.38, 4.36, 5.34, 6.32, 7.3];
+        assert_eq!(found.len(), expected.len());
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?}");
+        assert!([0.0, 2.4, 7.3].iter().all(|at| found.contains(at)), "exactly at the planes");
+    }
+
+    #[test]
+    fn of_planes_too_close_the_larger_and_of_small_ones_none_hold_a_line() {
+        assert!(
+            !within([0.0, 5.0], &[plane(0.0, 9.0), plane(5.0, 9.0), plane(0.4, 8.0)], 0.0).contains(&0.4)
+        );
+        assert!(within([0.0, 5.0], &[plane(0.0, 7.0), plane(5.0, 9.0), plane(0.4, 8.0)], 0.0).contains(&0.4));
+        assert!(!within([0.0, 5.0], &[plane(0.0, 7.0), plane(2.2, 0.5)], 0.0).contains(&2.2));
+        // Two halves of one plane count together.
+        let halves = [plane(0.0, 7.0), plane(2.2, 0.4), plane(2.2, 0.3)];
+        assert!(within([0.0, 5.0], &halves, 0.0).contains(&2.2));
+    }
+
+    #[test]
+    fn without_planes_lines_stand_evenly_about_the_middle() {
+        assert_eq!(within([-1.5, 1.5], &[], 0.0), [-1.5, -0.5, 0.5, 1.5]);
+        assert_eq!(within([-1.5, 1.5], &[], 0.5), [-1.0, 0.0, 1.0]);
+        assert_eq!(within([-0.2, 0.2], &[], 0.5), [0.0]);
+    }
+
+    #[test]
+    fn a_shift_puts_more_lines_where_there_is_room() {
+        let ends = [plane(0.0, 9.0), plane(4.0, 9.0)];
+        assert_eq!(within([0.0, 4.0], &ends, 0.0).len(), 5);
+        assert_eq!(within([0.0, 4.0], &ends, 0.5).len(), 6);
+    }
+}

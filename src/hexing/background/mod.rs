@@ -1,0 +1,19 @@
+//! Background meshes: hexes around a solid, out of which its core is cut (section 4).
+//!
+//! [`grid`]: a grid along the solid's own axes whose lines stand in its planar surfaces.
+
+mod grid;
+mod lines;
+mod rows;
+mod touched;
+
+pub use grid::{AlignedGrid, BackgroundError, estimate_hexes, grid};
+
+use crate::solid::SolidModel;
+
+/// What the solid encloses.
+pub(super) fn volume(solid: &SolidModel) -> f64 {
+    let center = solid.bounds().center();
+    let corners = solid.triangles().iter().map(|t| t.map(|p| solid.points()[p as usize] - center));
+    corners.map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
+}

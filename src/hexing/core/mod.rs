@@ -1,0 +1,196 @@
+//! The core of a background mesh: the cells that stand for the solid (section 5.1).
+//!
+//! 1. How deep each cell's centre lies in the solid (`distance`).
+//! 2. Which cells are in: a minimum cut (`energy`).
+//! 3. As few changes as may be, so that the boundary is a 2-manifold (`manifold`).
+//! 4. The largest part of each body, without bubbles (`parts`).
+//!
+//! **Promises.** The core is a conforming mesh, and a manifold with boundary; so its boundary is a closed 2-manifold.
+//! Whether that has the solid's Euler number is reported: features smaller than cells may be lost.
+
+mod cells;
+mod distance;
+mod energy;
+mod manifold;
+mod parts;
+
+use serde::Serialize;
+
+use crate::geometry::Point;
+use crate::hexing::background::volume;
+use crate::mesh::numbering::hex::FACES;
+use crate::mesh::{HexId, HexMesh, NodeId, Volumes};
+use crate::solid::SolidModel;
+use crate::{Cancelled, Monitor, Stage, parallel};
+use cells::{Cells, NONE};
+use distance::Distances;
+pub use energy::Energy;
+
+/// How the core is cut out.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CoreOptions<'a> {
+    /// The energy whose minimum is sought.
+    pub energy: Energy,
+    /// For each cell of the background, whether it is in a refined domain (section 4.3.1): others are in if their centre
+    /// is. `None`: all cells are one domain.
+    pub domain: Option<&'a [bool]>,
+}
+
+/// The core.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Core {
+    /// Without nodes that no hex uses; empty where no cell stands for the solid.
+    pub mesh: HexMesh,
+    /// The cell of the background that each hex is.
+    pub cells: Vec<HexId>,
+    /// What was done, and what came of it.
+    pub report: CoreReport,
+    /// Where parts were lost, or holes closed.
+    pub lost: Vec<LostPart>,
+}
+
+/// Cells that the solid has and the core has not, or the other way round.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct LostPart {
+    /// The mean of the cells' centres.
+    pub center: Point,
+    /// All centres are within this distance of it.
+    pub radius: f64,
+}
+
+/// What was done to make a core, and what came of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct CoreReport {
+    /// Cells of the background.
+    pub background: usize,
+    /// Cells that the cut decided on.
+    pub undecided: usize,
+    /// Cells of the core.
+    pub cells: usize,
+    /// Changes that made the boundary a manifold.
+    pub flips: usize,
+    /// Rounds of these.
+    pub rounds: usize,
+    /// Cells removed because they hung together with no body.
+    pub crumbs: usize,
+    /// Cells added because they were closed in.
+    pub bubbles: usize,
+    /// The Euler number of the core's boundary.
+    pub euler: i64,
+    /// The Euler number of the solid's boundary.
+    pub solid_euler: i64,
+    /// The core's volume over the solid's.
+    pub volume_ratio: f64,
+}
+
+impl CoreReport {
+    /// Is the core's boundary of the solid's kind, as far as the Euler number tells?
+    pub fn has_right_euler(&self) -> bool {
+        self.euler == self.solid_euler
+    }
+}
+
+const CORE: Stage = Stage("core");
+
+/// Cuts the core out of a conforming background.
+///
+/// # Errors
+/// If the monitor stops it.
+///
+/// # Panics
+/// If `options.domain` has not one value for each cell.
+pub fn core(
+    background: &HexMesh,
+    solid: &SolidModel,
+    options: &CoreOptions<'_>,
+    monitor: &dyn Monitor,
+) -> Result<Core, Cancelled> {
+    monitor.checkpoint(CORE, 0.0)?;
+    let cells = Cells::of(background, monitor)?;
+    monitor.checkpoint(CORE, 0.2)?;
+    let distances = Distances::of(&cells, |p| solid.signed_distance(p), monitor)?;
+    let depth = distances.depth();
+    let mut inside: Vec<bool> = depth.iter().map(|&d| d < 0.0).collect();
+    monitor.checkpoint(CORE, 0.5)?;
+    let is_free = |cell: usize| match options.energy {
+        Energy::Paper => options.domain.is_none_or(|domain| domain[cell]),
+        Energy::Clipped => {
+            options.domain.is_none_or(|domain| domain[cell]) && depth[cell].abs() <= energy::SURE
+        }
+    };
+    let free = parallel::filter(cells.len(), is_free);
+    energy::cut(&cells, &distances, options.energy, &free, |p| solid.nearest(p).point, &mut inside, monitor)?;
+    monitor.checkpoint(CORE, 0.7)?;
+    let repairs = manifold::make_manifold(&cells, &depth, &mut inside, monitor)?;
+    let body = |cell: usize| {
+        let foot = solid.nearest(cells.barycentre(cell));
+        solid.surfaces()[solid.surface_of(foot.triangle as usize).index()].body
+    };
+    let removed = parts::keep_bodies(&cells, &depth, body, &mut inside);
+    monitor.checkpoint(CORE, 0.9)?;
+    let kept = parallel::filter(cells.len(), |cell| inside[cell]);
+    let mesh = compact(background, &kept);
+    let report = CoreReport {
+        background: cells.len(),
+        undecided: free.len(),
+        cells: kept.len(),
+        flips: repairs.flips,
+        rounds: repairs.rounds,
+        crumbs: removed.crumbs.iter().map(Vec::len).sum(),
+        bubbles: removed.bubbles.iter().map(Vec::len).sum(),
+        euler: boundary_euler(&cells, &inside),
+        solid_euler: solid.euler_number(),
+        volume_ratio: Volumes::of(&mesh).map_or(0.0, |volumes| volumes.total) / volume(solid),
+    };
+    let lost = removed.crumbs.iter().chain(&removed.bubbles).map(|part| lost_part(&cells, part)).collect();
+    monitor.checkpoint(CORE, 1.0)?;
+    Ok(Core { mesh, cells: kept.into_iter().map(HexId).collect(), report, lost })
+}
+
+/// The mesh of some cells, ascending, without the nodes of others.
+fn compact(background: &HexMesh, kept: &[u32]) -> HexMesh {
+    let mut number = vec![None; background.positions.len()];
+    for &cell in kept {
+        background.hexes[cell as usize].iter().for_each(|n| number[n.index()] = Some(NodeId(0)));
+    }
+    let mut positions = Vec::new();
+    for (n, number) in number.iter_mut().enumerate().filter(|(_, number)| number.is_some()) {
+        *number = Some(NodeId::new(positions.len()));
+        positions.push(background.positions[n]);
+    }
+    let hex =
+        |&cell: &u32| background.hexes[cell as usize].map(|n| number[n.index()].expect("a node of a cell"));
+    HexMesh {
+        positions,
+        hexes: kept.iter().map(hex).collect(),
+        tags: background.tags.inherited(kept),
+        ..HexMesh::default()
+    }
+}
+
+/// The Euler number of the boundary of the cells inside, a 2-manifold of quads: these have two edges each.
+fn boundary_euler(cells: &Cells<'_>, inside: &[bool]) -> i64 {
+    let mut on_boundary = vec![false; cells.mesh.positions.len()];
+    let mut faces = 0;
+    for cell in (0..cells.len()).filter(|&cell| inside[cell]) {
+        for (face, &other) in FACES.iter().zip(&cells.neighbours[cell]) {
+            if other == NONE || !inside[other as usize] {
+                faces += 1;
+                face.iter().for_each(|&k| on_boundary[cells.mesh.hexes[cell][usize::from(k)].index()] = true);
+            }
+        }
+    }
+    on_boundary.iter().filter(|&&is| is).count() as i64 - faces
+}
+
+/// Where some cells are.
+fn lost_part(cells: &Cells<'_>, part: &[u32]) -> LostPart {
+    let centers = || part.iter().map(|&cell| cells.barycentre(cell as usize));
+    let center = centers().sum::<Point>() / part.len() as f64;
+    LostPart { center, radius: centers().map(|p| p.distance(center)).fold(0.0, f64::max) }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests;

@@ -1,0 +1,123 @@
+use super::*;
+use crate::Silent;
+use crate::geometry::Point;
+use crate::hexing::background::{AlignedGrid, grid};
+use crate::mesh::{PolygonMesh, check_hexes, mesh_hash};
+use crate::solid::testing::{cuboid, cylinder, ell, holed, solid};
+
+/// A ball of radius 1 of many quads.
+fn ball() -> PolygonMesh {
+    let mut mesh = cuboid([8, 8, 8]);
+    for p in &mut mesh.positions {
+        *p = (*p - Point::splat(4.0)).normalize();
+    }
+    mesh
+}
+
+fn turned(mut mesh: PolygonMesh) -> PolygonMesh {
+    let turn = glam::DQuat::from_xyzw(0.1, 0.2, 0.3, 0.9).normalize();
+    mesh.positions.iter_mut().for_each(|p| *p = turn * *p);
+    mesh
+}
+
+/// The core of a solid by a grid; checks that it is a mesh and has the solid's Euler number.
+#[track_caller]
+fn core_of(surface: &PolygonMesh, edge_length: f64) -> Core {
+    let solid = solid(surface);
+    let background = grid(&solid, &AlignedGrid::new(edge_length), &Silent).unwrap();
+    assert_eq!(check_hexes(&background), []);
+    let core = core(&background, &solid, &CoreOptions::default(), &Silent).unwrap();
+    assert_eq!(check_hexes(&core.mesh), []);
+    assert_eq!(core.report.euler, core.report.solid_euler, "{:?}", core.report);
+    assert_eq!((core.report.cells, core.cells.len()), (core.mesh.hexes.len(), core.mesh.hexes.len()));
+    assert!(core.lost.is_empty());
+    core
+}
+
+#[test]
+fn solids_along_the_axes_are_captured_exactly() {
+    for (surface, edge_length, cells) in
+        [(cuboid([3, 2, 1]), 0.37, 8 * 5 * 3), (holed(), 0.34, 9 * 9 * 6 - 9 * 6), (ell(), 0.26, 3 * 64)]
+    {
+        let core = core_of(&surface, edge_length);
+        assert!((core.report.volume_ratio - 1.0).abs() < 1e-12, "{:?}", core.report);
+        assert_eq!((core.report.cells, core.report.flips), (cells, 0));
+    }
+}
+
+#[test]
+fn round_and_turned_solids_keep_kind_and_volume() {
+    for (surface, edge_length) in [
+        (cylinder(48), 0.2),
+        (ball(), 0.15),
+        (turned(cuboid([3, 2, 1])), 0.17),
+        (turned(holed()), 0.17),
+        (turned(ell()), 0.12),
+        (turned(cylinder(48)), 0.15),
+    ] {
+        let core = core_of(&surface, edge_length);
+        assert!((core.report.volume_ratio - 1.0).abs() < 0.05, "{:?}", core.report);
+    }
+}
+
+#[test]
+fn any_number_of_threads_cuts_the_same_core() {
+    let solid = solid(&turned(holed()));
+    let hashes = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let background = grid(&solid, &AlignedGrid::new(0.11), &Silent).unwrap();
+            let core = core(&background, &solid, &CoreOptions::default(), &Silent).unwrap();
+            let all = |mesh: &HexMesh| mesh_hash(&mesh.positions, &mesh.hexes);
+            (all(&background), all(&core.mesh))
+        })
+    });
+    assert_eq!(hashes[0], hashes[1]);
+}
+
+#[test]
+fn two_bodies_are_kept_each_and_crumbs_are_not() {
+    let mut two = cuboid([2, 2, 2]);
+    let mut other = turned(cuboid([2, 2, 3]));
+    other.positions.iter_mut().for_each(|p| p.x += 5.0);
+    let first = two.positions.len() as u32;
+    for face in 0..other.face_count() {
+        two.push_face(other.face(face).iter().map(|n| NodeId(n.0 + first)));
+    }
+    two.positions.extend(&other.positions);
+    let core = core_of(&two, 0.3);
+    assert_eq!(core.report.euler, 4);
+    assert!((core.report.volume_ratio - 1.0).abs() < 0.05, "{:?}", core.report);
+}
+
+#[test]
+fn what_is_smaller_than_cells_is_told() {
+    // Two blocks, joined by a bar that is thinner than a cell and beside the lines.
+    let is_bar = |[x, y, z]: [i32; 3]| (8..24).contains(&x) && y == 3 && z == 3;
+    let blocks = crate::solid::testing::voxels([32, 8, 8], |at| !(8..24).contains(&at[0]) || is_bar(at));
+    let solid = solid(&blocks);
+    let background = grid(&solid, &AlignedGrid::new(2.6), &Silent).unwrap();
+    let core = core(&background, &solid, &CoreOptions::default(), &Silent).unwrap();
+    assert_eq!(check_hexes(&core.mesh), []);
+    let [lost] = core.lost[..] else { panic!("{:?}", core.lost) };
+    assert!(lost.center.x > 24.0 && (3.0..8.0).contains(&lost.radius), "{lost:?}");
+    assert!(core.report.crumbs > 0 && core.report.volume_ratio < 0.6, "{:?}", core.report);
+}
+
+#[test]
+fn in_refined_domains_the_papers_energy_is_cut() {
+    let solid = solid(&ball());
+    let background = grid(&solid, &AlignedGrid::new(0.2), &Silent).unwrap();
+    // The layers of cells around the surface are the domain.
+    let cells = Cells::of(&background, &Silent).unwrap();
+    let domain: Vec<bool> =
+        (0..cells.len()).map(|c| solid.signed_distance(cells.barycentre(c)).abs() < 0.25).collect();
+    let options = CoreOptions { energy: Energy::Paper, domain: Some(&domain) };
+    let core = core(&background, &solid, &options, &Silent).unwrap();
+    assert_eq!(check_hexes(&core.mesh), []);
+    assert!(
+        core.report.has_right_euler() && core.report.undecided == domain.iter().filter(|&&is| is).count()
+    );
+    // Cells whose faces would be bad are left out.
+    assert!((0.7..1.0).contains(&core.report.volume_ratio), "{:?}", core.report);
+}
