@@ -1,10 +1,11 @@
-//! Minimum cuts against all cuts of small networks, and against another library's maximum flow on larger ones.
+//! Minimum cuts against all cuts of small networks, and against another library's maximum flow on larger ones; cheapest
+//! paths against that library's; cheapest assignments against all there are.
 
-use petgraph::algo::ford_fulkerson;
-use petgraph::graph::DiGraph;
+use petgraph::algo::{dijkstra, ford_fulkerson};
+use petgraph::graph::{DiGraph, NodeIndex};
 use proptest::prelude::*;
 
-use super::FlowNetwork;
+use super::{Choice, FlowNetwork, ShortestPaths, cheapest_assignment};
 use crate::Silent;
 
 /// What a network is made of.
@@ -153,4 +154,73 @@ fn capacities_that_overflow_are_refused() {
     let mut network = FlowNetwork::new(2);
     network.add_edge(0, 1, u64::MAX / 2, 0);
     network.add_edge(0, 1, 1, 0);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    /// Costs are another library's, and each path adds up to its cost. One search leaves nothing to the next.
+    #[test]
+    fn paths_cost_what_another_library_says(
+        arcs in prop::collection::vec((0..30_u32, 0..30_u32, 0..9_u64), 0..120),
+        searches in prop::collection::vec((0..30_u32, 0..30_u32), 1..5),
+    ) {
+        let graph = DiGraph::<(), u64>::from_edges(arcs.iter().copied().chain([(29, 29, 0)]));
+        let leaving = |node: u32, out: &mut Vec<(u32, u64)>| {
+            out.extend(arcs.iter().filter(|arc| arc.0 == node).map(|arc| (arc.1, arc.2)));
+        };
+        let mut paths = ShortestPaths::new(30);
+        for (start, end) in searches {
+            let costs = dijkstra(&graph, start.into(), None, |edge| *edge.weight());
+            let found = paths.search(&[(start, 7)], leaving, |node| node == end);
+            prop_assert_eq!(found.as_ref().map(|path| path.cost - 7), costs.get(&NodeIndex::from(end)).copied());
+            let Some(path) = found else { continue };
+            prop_assert_eq!((path.nodes[0], path.nodes[path.nodes.len() - 1]), (start, end));
+            let cheapest = |pair: &[u32]| {
+                arcs.iter().filter(|arc| (arc.0, arc.1) == (pair[0], pair[1])).map(|arc| arc.2).min().unwrap()
+            };
+            prop_assert_eq!(path.nodes.windows(2).map(cheapest).sum::<u64>() + 7, path.cost);
+        }
+    }
+
+    #[test]
+    fn assignments_are_the_cheapest_of_all(
+        choices in prop::collection::vec(prop::collection::btree_map(0..6_u32, 0..20_u64, 0..5), 0..6),
+    ) {
+        let choices: Vec<Vec<Choice>> = choices.into_iter().map(|row| row.into_iter().collect()).collect();
+        let found = cheapest_assignment(&choices);
+        let mut taken: Vec<u32> = found.iter().flatten().copied().collect();
+        taken.sort_unstable();
+        prop_assert!(taken.windows(2).all(|pair| pair[0] < pair[1]));
+        let cost = |(row, column): (&Vec<Choice>, &Option<u32>)| {
+            column.map_or((1, 0), |c| (0, row.iter().find(|choice| choice.0 == c).unwrap().1))
+        };
+        let sum = |a: (usize, u64), b: (usize, u64)| (a.0 + b.0, a.1 + b.1);
+        let total = choices.iter().zip(&found).map(cost).fold((0, 0), sum);
+        prop_assert_eq!(total, least(&choices, &mut Vec::new()));
+    }
+}
+
+/// Rows that get nothing, and then cost, of the best of all assignments.
+fn least(choices: &[Vec<Choice>], taken: &mut Vec<u32>) -> (usize, u64) {
+    let Some((row, others)) = choices.split_first() else { return (0, 0) };
+    let (nothing, cost) = least(others, taken);
+    let mut best = (nothing + 1, cost);
+    for &(column, cost) in row {
+        if !taken.contains(&column) {
+            taken.push(column);
+            let (nothing, others) = least(others, taken);
+            taken.pop();
+            best = best.min((nothing, others + cost));
+        }
+    }
+    best
+}
+
+#[test]
+fn paths_start_where_it_costs_least() {
+    let line = |node: u32, out: &mut Vec<(u32, u64)>| out.extend([(node + 1, 2)]);
+    let path = ShortestPaths::new(9).search(&[(0, 0), (2, 5), (3, 1)], line, |node| node >= 4).unwrap();
+    assert_eq!((path.cost, path.nodes), (3, vec![3, 4]));
+    assert_eq!(ShortestPaths::new(9).search(&[], line, |_| true), None);
 }

@@ -6,4 +6,5 @@
 
 pub mod background;
 pub mod core;
+pub mod correspondence;
 pub mod direction;

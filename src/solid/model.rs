@@ -104,6 +104,11 @@ impl SolidModel {
         &self.normals
     }
 
+    /// The outward unit normal at vertex `v`: of the triangles around, by their angles there.
+    pub fn normal_at(&self, v: u32) -> Point {
+        self.vertex_normals[v as usize].normalize_or_zero()
+    }
+
     /// The corners of a triangle.
     pub fn corners_of(&self, triangle: usize) -> [Point; 3] {
         self.shell.mesh.at(triangle)

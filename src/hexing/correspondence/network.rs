@@ -1,0 +1,209 @@
+//! The solid's corners and curves as long as some of them are given up.
+//!
+//! The cyclic order of curves at a corner is the solid's, from the fan of triangles, and is kept: a curve that is
+//! contracted leaves one corner with the curves of both, those of the other in its place.
+//!
+//! ```text
+//!     a   d              a d
+//!      \ /                \|
+//!   b---A---B---e    b-----A---e      around A, from where B was: a, b, c of A, then f, e, d of B
+//!      / \                /|
+//!     c   f              c f
+//! ```
+
+use super::reduction::{CurveFate, LostCurve, Reason};
+use crate::geometry::Point;
+use crate::solid::{Arm, CornerId, CurveId, SolidModel};
+
+pub(super) struct Network<'a> {
+    pub solid: &'a SolidModel,
+    /// The curves that end at each corner, anticlockwise seen from outside.
+    arms: Vec<Vec<Arm>>,
+    /// Per corner itself, or the one that it was joined to.
+    joined_to: Vec<CornerId>,
+    /// Per curve.
+    fates: Vec<CurveFate>,
+    /// Per curve its length, longer by what was contracted at its ends.
+    lengths: Vec<f64>,
+    pub lost: Vec<LostCurve>,
+}
+
+impl<'a> Network<'a> {
+    pub fn of(solid: &'a SolidModel) -> Self {
+        Self {
+            solid,
+            arms: solid.corners().iter().map(|corner| corner.arms.clone()).collect(),
+            joined_to: (0..solid.corners().len()).map(CornerId::new).collect(),
+            fates: vec![CurveFate::Captured; solid.curves().len()],
+            lengths: solid.curves().iter().map(|curve| curve.length).collect(),
+            lost: Vec::new(),
+        }
+    }
+
+    /// The curves that are not given up, ascending.
+    pub fn curves(&self) -> impl Iterator<Item = CurveId> + use<'_> {
+        (0..self.fates.len()).map(CurveId::new).filter(|&c| self.is_kept(c))
+    }
+
+    pub fn is_kept(&self, curve: CurveId) -> bool {
+        self.fate(curve) == CurveFate::Captured
+    }
+
+    pub fn fate(&self, curve: CurveId) -> CurveFate {
+        self.fates[curve.index()]
+    }
+
+    /// The corners at a curve's ends; `None` if it has none.
+    pub fn ends(&self, curve: CurveId) -> Option<[CornerId; 2]> {
+        self.solid.curves()[curve.index()].ends.map(|ends| ends.map(|end| self.corner(end)))
+    }
+
+    /// The corner that stands for `corner`.
+    pub fn corner(&self, corner: CornerId) -> CornerId {
+        let up = self.joined_to[corner.index()];
+        if up == corner { corner } else { self.corner(up) }
+    }
+
+    pub fn arms(&self, corner: CornerId) -> &[Arm] {
+        &self.arms[corner.index()]
+    }
+
+    /// Corners that stand for themselves, ascending, and either have a curve or never had one.
+    pub fn standing_corners(&self) -> impl Iterator<Item = CornerId> + use<'_> {
+        let stands = |&c: &CornerId| {
+            let bare = self.solid.corners()[c.index()].arms.is_empty();
+            self.corner(c) == c && (bare || !self.arms(c).is_empty())
+        };
+        (0..self.joined_to.len()).map(CornerId::new).filter(stands)
+    }
+
+    pub fn point(&self, corner: CornerId) -> Point {
+        self.solid.corners()[corner.index()].point
+    }
+
+    /// The curve's length, from the corners that now stand at its ends.
+    pub fn length(&self, curve: CurveId) -> f64 {
+        self.lengths[curve.index()]
+    }
+
+    /// How far a curve is from smooth, in degrees.
+    pub fn sharpness(&self, curve: CurveId) -> f64 {
+        (self.solid.curves()[curve.index()].interior_angle - 180.0).abs()
+    }
+
+    pub fn fates(&self) -> &[CurveFate] {
+        &self.fates
+    }
+
+    /// Gives a curve up: its corners become one if it has two, else nothing stands for it.
+    pub fn contract(&mut self, curve: CurveId, reason: Reason) {
+        let Some([a, b]) = self.ends(curve).filter(|[a, b]| a != b) else {
+            return self.suppress(curve, reason);
+        };
+        // The corner with more curves stays.
+        let stays = if (self.arms(b).len(), a) > (self.arms(a).len(), b) { b } else { a };
+        let goes = if stays == a { b } else { a };
+        let mut joined = self.arms_after(stays, curve);
+        let of_other = self.arms_after(goes, curve);
+        for arm in &of_other {
+            self.lengths[arm.curve.index()] += self.length(curve);
+        }
+        joined.extend(of_other);
+        self.arms[stays.index()] = joined;
+        self.arms[goes.index()].clear();
+        self.joined_to[goes.index()] = stays;
+        self.give_up(curve, CurveFate::Contracted, reason);
+    }
+
+    /// Gives a curve up: nothing stands for it.
+    pub fn suppress(&mut self, curve: CurveId, reason: Reason) {
+        for end in self.ends(curve).into_iter().flatten() {
+            self.arms[end.index()].retain(|arm| arm.curve != curve);
+        }
+        self.give_up(curve, CurveFate::Suppressed, reason);
+    }
+
+    /// The arms of a corner from the one after `curve` to the one before it.
+    fn arms_after(&self, corner: CornerId, curve: CurveId) -> Vec<Arm> {
+        let arms = self.arms(corner);
+        let at = arms.iter().position(|arm| arm.curve == curve).unwrap_or(0);
+        let around = arms[at..].iter().chain(&arms[..at]);
+        around.filter(|arm| arm.curve != curve).copied().collect()
+    }
+
+    fn give_up(&mut self, curve: CurveId, fate: CurveFate, reason: Reason) {
+        self.fates[curve.index()] = fate;
+        let length = self.solid.curves()[curve.index()].length;
+        let place = self.point_along(curve, 0.5 * length);
+        self.lost.push(LostCurve { curve, fate, reason, place, length });
+    }
+
+    /// Points of a curve, so many that none of its others is farther than `spacing` from the nearest.
+    pub fn samples(&self, curve: CurveId, spacing: f64) -> Vec<Point> {
+        let points = self.solid.points();
+        let vertices = &self.solid.curves()[curve.index()].vertices;
+        let mut samples = vec![points[vertices[0] as usize]];
+        // How far the walk has come since the last sample.
+        let mut since = 0.0;
+        for pair in vertices.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(|v| points[v as usize]);
+            let length = a.distance(b);
+            let mut at = spacing - since;
+            while at < length && spacing > 0.0 {
+                samples.push(a + (b - a) * (at / length));
+                at += spacing;
+            }
+            since = length - (at - spacing);
+        }
+        samples
+    }
+
+    /// The point of a curve at a distance along it from its start.
+    pub fn point_along(&self, curve: CurveId, mut along: f64) -> Point {
+        let points = self.solid.points();
+        let vertices = &self.solid.curves()[curve.index()].vertices;
+        for pair in vertices.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(|v| points[v as usize]);
+            let length = a.distance(b);
+            if along < length {
+                return a + (b - a) * (along / length).max(0.0);
+            }
+            along -= length;
+        }
+        points[vertices[vertices.len() - 1] as usize]
+    }
+}
+
+/// Arcs shorter than this many local edges are contracted from the start.
+const SHORT_ARC: f64 = 0.6;
+
+/// Closed curves shorter than this many local edges are suppressed from the start: three edges would make a triangle
+/// smaller than the quads around it.
+const SHORT_LOOP: f64 = 2.5;
+
+/// Gives up, shortest first, the curves that are too short for edges of the length that `length_near` tells.
+pub(super) fn give_up_short(network: &mut Network, length_near: impl Fn(Point) -> f64) {
+    let is_short = |network: &Network, curve: CurveId| {
+        let h = length_near(network.point_along(curve, 0.5 * network.solid.curves()[curve.index()].length));
+        let is_arc = network.ends(curve).is_some_and(|[a, b]| a != b);
+        network.length(curve) < h * if is_arc { SHORT_ARC } else { SHORT_LOOP }
+    };
+    let mut queue: std::collections::BTreeSet<(u64, CurveId)> =
+        network.curves().map(|c| (network.length(c).to_bits(), c)).collect();
+    // Lengths are positive, so their bits are in their order. A curve that a contraction lengthens or closes is
+    // looked at once more when it comes to its length.
+    while let Some((bits, curve)) = queue.pop_first() {
+        if !network.is_kept(curve) || !is_short(network, curve) {
+            continue;
+        }
+        if network.length(curve).to_bits() != bits {
+            queue.insert((network.length(curve).to_bits(), curve));
+            continue;
+        }
+        let corners = network.ends(curve);
+        network.contract(curve, Reason::Short);
+        let arms = corners.into_iter().flatten().flat_map(|c| network.arms(network.corner(c)).to_vec());
+        let closed: Vec<CurveId> = arms.map(|arm| arm.curve).collect();
+        queue.extend(closed.into_iter().map(|c| (network.length(c).to_bits(), c)));
+    }
+}

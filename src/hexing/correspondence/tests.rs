@@ -1,0 +1,156 @@
+//! Correspondences of small solids with plain cores: the cells of a grid whose centres are inside.
+
+use super::*;
+use crate::Silent;
+use crate::geometry::Point;
+use crate::mesh::numbering::hex::apart;
+use crate::mesh::{GridOptions, PolygonMesh, hex_grid};
+use crate::solid::testing::{cuboid, cylinder, ell, holed, solid, voxels};
+
+/// The cells of a grid of edge length `h` whose centres are inside, and as many more as make a manifold of them.
+fn core(solid: &SolidModel, h: f64) -> HexMesh {
+    let options = GridOptions { spacing: h, margin: 2.0 * h, fitted: false, max_hexes: 1 << 20 };
+    let grid = hex_grid(solid.bounds(), &options).unwrap();
+    let center = |hex: &[NodeId; 8]| hex.iter().map(|n| grid.positions[n.index()]).sum::<Point>() / 8.0;
+    let mut full: Vec<bool> = grid.hexes.iter().map(|hex| solid.contains(center(hex))).collect();
+    while fill_pinches(&grid, &mut full) {}
+    let hexes = grid.hexes.iter().zip(full).filter_map(|(hex, full)| full.then_some(*hex)).collect();
+    HexMesh { positions: grid.positions.clone(), hexes, ..HexMesh::default() }
+}
+
+/// Fills the cells around nodes where full cells, or empty ones, do not hang together by faces.
+fn fill_pinches(grid: &HexMesh, full: &mut [bool]) -> bool {
+    let mut around: Vec<Vec<(usize, usize)>> = vec![Vec::new(); grid.positions.len()];
+    for (h, hex) in grid.hexes.iter().enumerate() {
+        (0..8).for_each(|k| around[hex[k].index()].push((k, h)));
+    }
+    let mut changed = false;
+    for cells in around {
+        let hangs_together = |kind: bool| {
+            let of_kind: Vec<usize> =
+                cells.iter().filter(|&&(_, h)| full[h] == kind).map(|&(k, _)| k).collect();
+            let mut reached: Vec<usize> = of_kind.first().copied().into_iter().collect();
+            let mut at = 0;
+            while at < reached.len() {
+                let next = |&k: &usize| apart(reached[at], k) == 1 && !reached.contains(&k);
+                let more: Vec<usize> = of_kind.iter().copied().filter(next).collect();
+                reached.extend(more);
+                at += 1;
+            }
+            reached.len() == of_kind.len()
+        };
+        if !(hangs_together(true) && hangs_together(false)) {
+            cells.iter().for_each(|&(_, h)| full[h] = true);
+            changed = true;
+        }
+    }
+    changed
+}
+
+/// The correspondence holds all that it promises, and has so many curves captured, contracted and suppressed.
+#[track_caller]
+fn check(mesh: &HexMesh, solid: &SolidModel, expected: [usize; 3]) -> Correspondence {
+    let on = correspond(mesh, solid, &Silent).unwrap();
+    assert_eq!(check_correspondence(mesh, solid, &on), []);
+    let fates = [CurveFate::Captured, CurveFate::Contracted, CurveFate::Suppressed];
+    let counts = fates.map(|fate| on.reduction.count(fate));
+    assert_eq!(counts, expected, "{:?}", on.reduction.lost_curves);
+    assert_eq!(on.reduction.lost_curves.len(), counts[1] + counts[2]);
+    on
+}
+
+/// The same surface, turned about a skew axis and scaled.
+fn turned(mut surface: PolygonMesh, angle: f64) -> PolygonMesh {
+    let turn = glam::DMat3::from_axis_angle(Point::new(0.48, 0.6, 0.64), angle);
+    surface.positions.iter_mut().for_each(|p| *p = turn * *p);
+    surface
+}
+
+/// A pyramid of height 1.5 over a regular polygon of `n` corners on a circle of radius 1.
+fn pyramid(n: u32) -> PolygonMesh {
+    let mut mesh = cylinder(n);
+    let base: Vec<Point> = mesh.positions[..n as usize].to_vec();
+    mesh = PolygonMesh { positions: base, ..PolygonMesh::default() };
+    mesh.positions.push(Point::new(0.0, 0.0, 1.5));
+    mesh.push_face((0..n).rev().map(NodeId));
+    for i in 0..n {
+        mesh.push_face([i, (i + 1) % n, n].map(NodeId));
+    }
+    mesh
+}
+
+fn corner_nodes(mesh: &HexMesh, on: &Correspondence) -> Vec<(CornerId, Point)> {
+    let of_node = |(anchor, p): (&Anchor, &Point)| match anchor {
+        Anchor::Corner(corner) => Some((*corner, *p)),
+        _ => None,
+    };
+    on.anchors.iter().zip(&mesh.positions).filter_map(of_node).collect()
+}
+
+#[test]
+fn an_aligned_box_is_found_where_it_is() {
+    let solid = solid(&cuboid([4, 3, 2]));
+    let mesh = core(&solid, 0.5);
+    assert_eq!(mesh.hexes.len(), 8 * 6 * 4);
+    let on = check(&mesh, &solid, [12, 0, 0]);
+    for (corner, p) in corner_nodes(&mesh, &on) {
+        assert_eq!(p, solid.corners()[corner.index()].point);
+    }
+    assert_eq!(on.edges.len(), 4 * (8 + 6 + 4));
+    for (nodes, surface) in &on.faces {
+        let middle = nodes.iter().map(|n| mesh.positions[n.index()]).sum::<Point>() / 4.0;
+        assert_eq!(on.reduction.nearest_on_surface(&solid, *surface, middle).distance, 0.0);
+    }
+    let freedom = on.anchors.iter().filter(|a| **a != Anchor::Inside).map(|a| a.freedom());
+    assert_eq!(freedom.sum::<usize>(), on.edges.len() - 12 + 2 * (2 * (7 * 5 + 5 * 3 + 7 * 3)));
+}
+
+#[test]
+fn prisms_keep_all_their_curves() {
+    for (surface, h, curves) in [(ell(), 0.2, 18), (holed(), 0.25, 24), (cylinder(24), 0.17, 2)] {
+        let solid = solid(&surface);
+        check(&core(&solid, h), &solid, [curves, 0, 0]);
+    }
+}
+
+#[test]
+fn a_turned_solid_keeps_all_its_curves() {
+    for (surface, curves) in [(cuboid([4, 3, 2]), 12), (ell(), 18), (holed(), 24), (cylinder(24), 2)] {
+        for angle in [0.2, 0.5, 0.8] {
+            let solid = solid(&turned(surface.clone(), angle));
+            let h = solid.bounds().size().max_element() / 16.0;
+            check(&core(&solid, h), &solid, [curves, 0, 0]);
+        }
+    }
+}
+
+#[test]
+fn crossing_holes_are_kept_apart() {
+    let full =
+        |[x, y, z]: [i32; 3]| !((2..4).contains(&x) && (2..4).contains(&y) || (3..5).contains(&y) && z == 2);
+    let solid = solid(&voxels([6, 6, 5], full));
+    let on = check(&core(&solid, 0.5), &solid, [solid.curves().len(), 0, 0]);
+    assert_eq!(on.reduction.lost_surfaces, []);
+}
+
+#[test]
+fn an_apex_has_as_many_edges_as_curves() {
+    let four = solid(&pyramid(4));
+    check(&core(&four, 0.16), &four, [8, 0, 0]);
+    for n in [5, 6] {
+        let solid = solid(&pyramid(n));
+        let mesh = core(&solid, 0.12);
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        assert_eq!(check_correspondence(&mesh, &solid, &on), []);
+        // The base is found whole; at the apex curves are given up only for want of edges.
+        assert!(on.reduction.count(CurveFate::Captured) >= n as usize + 3, "{:?}", on.reduction.lost_curves);
+    }
+}
+
+#[test]
+fn a_plate_of_one_layer_keeps_both_faces() {
+    let solid = solid(&cuboid([6, 5, 1]));
+    check(&core(&solid, 1.0), &solid, [12, 0, 0]);
+    let solid = crate::solid::testing::solid(&turned(cuboid([6, 5, 1]), 0.3));
+    check(&core(&solid, 0.45), &solid, [12, 0, 0]);
+}
