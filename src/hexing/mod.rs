@@ -8,3 +8,5 @@ pub mod background;
 pub mod core;
 pub mod correspondence;
 pub mod direction;
+pub mod fit;
+pub mod sheets;

@@ -1,5 +1,6 @@
 //! What each node may do.
 
+use super::guide::Guide;
 use super::surface::BoundarySurface;
 use super::symmetric::Symmetric;
 use crate::geometry::Point;
@@ -95,8 +96,18 @@ impl<'a> Constraints<'a> {
         self.freedom[node.index()] == Freedom::Fixed
     }
 
-    /// The projector to the directions in which the node may go from `p`.
-    pub(super) fn tangent(&self, node: NodeId, p: Point) -> Symmetric {
+    /// How far `p` is from the patch or the curve of the node.
+    pub(super) fn distance(&self, node: NodeId, p: Point) -> f64 {
+        match (self.freedom[node.index()], self.surface) {
+            (Freedom::Patch(patch), Some(surface)) => surface.distance_to_patch(patch, p),
+            (Freedom::Curve(curve), Some(surface)) => surface.distance_to_curve(curve, p),
+            _ => 0.0,
+        }
+    }
+}
+
+impl Guide for Constraints<'_> {
+    fn tangent(&self, node: NodeId, p: Point) -> Symmetric {
         match (self.freedom[node.index()], self.surface) {
             (Freedom::Patch(patch), Some(surface)) => {
                 Symmetric::IDENTITY + Symmetric::outer(surface.normal(patch, p)) * -1.0
@@ -107,17 +118,7 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// How far `p` is from the patch or the curve of the node.
-    pub(super) fn distance(&self, node: NodeId, p: Point) -> f64 {
-        match (self.freedom[node.index()], self.surface) {
-            (Freedom::Patch(patch), Some(surface)) => surface.distance_to_patch(patch, p),
-            (Freedom::Curve(curve), Some(surface)) => surface.distance_to_curve(curve, p),
-            _ => 0.0,
-        }
-    }
-
-    /// Where the node may be that is near to `p`; it was at `anchor` at first.
-    pub(super) fn project(&self, node: NodeId, anchor: Point, p: Point) -> Point {
+    fn project(&self, node: NodeId, anchor: Point, p: Point) -> Point {
         match (self.freedom[node.index()], self.surface) {
             (Freedom::Patch(patch), Some(surface)) if self.is_bounded => surface.closest_on_patch(patch, p),
             (Freedom::Curve(curve), Some(surface)) if self.is_bounded => surface.closest_on_curve(curve, p),

@@ -16,31 +16,31 @@ use crate::geometry::Point;
 
 /// Which energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Weights {
+pub(crate) struct Weights {
     /// The power n is two to this.
-    pub(super) doublings: u32,
+    pub(crate) doublings: u32,
     /// The share of the angles, from 0 to 1.
-    pub(super) mu: f64,
+    pub(crate) mu: f64,
 }
 
 /// An energy with its gradient and its second derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Expansion {
-    pub(super) value: f64,
-    pub(super) gradient: Point,
-    pub(super) hessian: Symmetric,
+pub(crate) struct Expansion {
+    pub(crate) value: f64,
+    pub(crate) gradient: Point,
+    pub(crate) hessian: Symmetric,
 }
 
 /// What the energy of a corner depends on.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corner {
-    pub(super) determinant: f64,
+pub(crate) struct Corner {
+    pub(crate) determinant: f64,
     /// The mean of the squared edges.
-    pub(super) mean_square: f64,
+    pub(crate) mean_square: f64,
     /// The product of the squared edges.
-    pub(super) product: f64,
+    pub(crate) product: f64,
     /// The square of chi's eps.
-    pub(super) eps_squared: f64,
+    pub(crate) eps_squared: f64,
 }
 
 /// The energy of a corner, and what its derivatives are made of.
@@ -48,22 +48,22 @@ pub(super) struct Corner {
 /// Of ln f^3 = 3 ln q - 2 ln chi and ln r^2 = ln(product) - 2 ln chi the derivatives are short; those of
 /// E = exp(n u) are n E u' and n E (u'' + n u' u'^T).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Factors {
+pub(crate) struct Factors {
     /// The energy.
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// n times the part of the energy that weighs shape, and n times the one that weighs angles.
-    pub(super) shape: f64,
-    pub(super) angles: f64,
+    pub(crate) shape: f64,
+    pub(crate) angles: f64,
     /// The first and the second derivative of -2 ln chi by the determinant.
-    pub(super) slope: f64,
-    pub(super) bend: f64,
+    pub(crate) slope: f64,
+    pub(crate) bend: f64,
     /// r^2.
-    pub(super) angles_squared: f64,
+    pub(crate) angles_squared: f64,
 }
 
 impl Weights {
     /// n.
-    pub(super) fn power(self) -> f64 {
+    pub(crate) fn power(self) -> f64 {
         f64::from(1 << self.doublings)
     }
 }
@@ -81,7 +81,7 @@ impl Corner {
 
     /// The energy, and r^2; both infinite for an inverted corner without eps.
     #[inline]
-    pub(super) fn energy(self, weights: Weights) -> (f64, f64) {
+    pub(crate) fn energy(self, weights: Weights) -> (f64, f64) {
         let (chi, _) = self.chi();
         if chi.is_nan() || chi <= 0.0 {
             return (f64::INFINITY, f64::INFINITY);
@@ -94,7 +94,7 @@ impl Corner {
 
     /// The energy and its derivatives' factors; `None` where the energy is infinite.
     #[inline]
-    pub(super) fn factors(self, weights: Weights) -> Option<Factors> {
+    pub(crate) fn factors(self, weights: Weights) -> Option<Factors> {
         let (chi, root) = self.chi();
         if chi.is_nan() || chi <= 0.0 {
             return None;

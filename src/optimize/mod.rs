@@ -15,6 +15,7 @@
 
 mod constraint;
 mod energy;
+mod guide;
 mod problem;
 mod smooth;
 mod star;
@@ -23,13 +24,22 @@ mod sweep;
 mod symmetric;
 mod untangle;
 
+pub(crate) use energy::Weights;
+pub(crate) use guide::{Guide, Pull};
+pub(crate) use problem::Problem;
+pub(crate) use smooth::{keep_positive, smooth};
+pub(crate) use star::Star;
+pub(crate) use sweep::{Moved, Rules, sweep, wake, worst_kept};
+pub(crate) use symmetric::Symmetric;
+pub(crate) use untangle::untangle;
+
 pub use constraint::{Constraints, Freedom};
 pub use surface::BoundarySurface;
 
 use crate::geometry::Point;
 use crate::mesh::{HexId, NodeId};
+use crate::parallel;
 use crate::{Cancelled, Monitor, Stage};
-use problem::Problem;
 
 /// How far to go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,10 +116,10 @@ pub fn optimize(
     options: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<OptimizeReport, Cancelled> {
-    let mut problem = Problem::new(positions, hexes, movable, constraints);
+    let mut problem = Problem::new(positions, hexes, |n| movable[n.index()] && !constraints.is_fixed(n));
     let before = problem.state();
-    let mut sweeps = untangle::untangle(&mut problem, options, monitor)?;
-    sweeps += smooth::smooth(&mut problem, options, monitor)?;
+    let mut sweeps = untangle(&mut problem, constraints, options, monitor)?;
+    sweeps += smooth(&mut problem, constraints, options, monitor)?;
     let mut after = problem.state();
     if after.is_worse_than(&before) {
         problem.points.clone_from(&problem.anchors);
@@ -123,7 +133,9 @@ pub fn optimize(
         mean_before: before.mean(),
         mean_after: after.mean(),
         moved,
-        off_boundary: problem.off_boundary(),
+        off_boundary: parallel::greatest(problem.movable(), |i| {
+            constraints.distance(problem.nodes[i], problem.points[i])
+        }),
         inverted: after.inverted(&problem),
         sweeps,
     })

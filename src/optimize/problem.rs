@@ -1,7 +1,6 @@
 //! The part of a mesh that moves, numbered for itself: the nodes that move, the cells around them, and who may move
 //! at the same time.
 
-use super::constraint::Constraints;
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::{Certainty, is_positive, scaled_jacobian};
@@ -12,36 +11,34 @@ use crate::parallel;
 const NONE: u32 = u32::MAX;
 
 /// The cells around the movable nodes. Nodes of the problem are numbered in the mesh's order, movable ones first.
-pub(super) struct Problem<'a> {
-    pub(super) constraints: &'a Constraints<'a>,
+pub(crate) struct Problem {
     /// The mesh's node of each node, and where the node is, and was at first.
-    pub(super) nodes: Vec<NodeId>,
-    pub(super) points: Vec<Point>,
-    pub(super) anchors: Vec<Point>,
+    pub(crate) nodes: Vec<NodeId>,
+    pub(crate) points: Vec<Point>,
+    pub(crate) anchors: Vec<Point>,
     /// The nodes of each cell, and the mesh's hex.
-    pub(super) cells: Vec<[u32; 8]>,
+    pub(crate) cells: Vec<[u32; 8]>,
     hexes: Vec<HexId>,
     /// The cube of each cell's mean edge at first: what its determinants are measured against.
-    pub(super) volume: Vec<f64>,
+    pub(crate) volume: Vec<f64>,
     /// The cells that are positive in all of their inside.
-    pub(super) positive: Vec<bool>,
+    pub(crate) positive: Vec<bool>,
     /// The cells whose inside is looked at whenever one of their nodes moves.
-    pub(super) guarded: Vec<bool>,
+    pub(crate) guarded: Vec<bool>,
     /// Where the cells of each movable node start in `around`: a cell, and which of its corners the node is.
     starts: Vec<u32>,
     around: Vec<(u32, u8)>,
-    /// Movable nodes by colour, ascending: two of one colour share no cell.
-    pub(super) colours: Vec<Vec<u32>>,
+    /// Movable nodes by colour, ascending: two of one colour share no cell. Sweeps follow this order.
+    pub(crate) colours: Vec<Vec<u32>>,
 }
 
-impl<'a> Problem<'a> {
-    pub(super) fn new(
+impl Problem {
+    /// The cells around the nodes that move.
+    pub(crate) fn new(
         positions: &[Point],
         hexes: &[[NodeId; 8]],
-        movable: &[bool],
-        constraints: &'a Constraints<'a>,
+        moves: impl Fn(NodeId) -> bool + Sync,
     ) -> Self {
-        let moves = |n: NodeId| movable[n.index()] && !constraints.is_fixed(n);
         let touched = parallel::filter(hexes.len(), |h| hexes[h].iter().any(|&n| moves(n)));
         let mut used = vec![false; positions.len()];
         for &h in &touched {
@@ -50,7 +47,7 @@ impl<'a> Problem<'a> {
             }
         }
         let of_kind = |wanted: bool| {
-            let used = &used;
+            let (used, moves) = (&used, &moves);
             (0..positions.len()).map(NodeId::new).filter(move |&n| used[n.index()] && moves(n) == wanted)
         };
         let mut nodes: Vec<NodeId> = of_kind(true).collect();
@@ -65,7 +62,6 @@ impl<'a> Problem<'a> {
         let points: Vec<Point> = nodes.iter().map(|n| positions[n.index()]).collect();
         let (starts, around) = stars(&cells, movable_count);
         let mut problem = Self {
-            constraints,
             anchors: points.clone(),
             hexes: touched.into_iter().map(HexId).collect(),
             volume: parallel::collect(cells.len(), |c| cell_size(&cells[c].map(|n| points[n as usize]))),
@@ -84,37 +80,37 @@ impl<'a> Problem<'a> {
     }
 
     /// How many nodes may move: they are numbered first.
-    pub(super) fn movable(&self) -> usize {
+    pub(crate) fn movable(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// The cells around a movable node, each with the node's corner.
-    pub(super) fn star(&self, node: u32) -> &[(u32, u8)] {
+    pub(crate) fn star(&self, node: u32) -> &[(u32, u8)] {
         &self.around[self.starts[node as usize] as usize..self.starts[node as usize + 1] as usize]
     }
 
     /// Where the corners of a cell are.
-    pub(super) fn corners(&self, cell: usize) -> [Point; 8] {
+    pub(crate) fn corners(&self, cell: usize) -> [Point; 8] {
         self.cells[cell].map(|n| self.points[n as usize])
     }
 
     /// Asks every cell again whether it is positive.
-    pub(super) fn find_positive(&mut self) {
+    pub(crate) fn find_positive(&mut self) {
         self.positive = parallel::collect(self.cells.len(), |cell| self.is_positive(cell));
     }
 
     /// Is the cell positive in all of its inside, where its nodes are now?
-    pub(super) fn is_positive(&self, cell: usize) -> bool {
+    pub(crate) fn is_positive(&self, cell: usize) -> bool {
         is_positive(&self.corners(cell)) == Certainty::Positive
     }
 
     /// The scaled Jacobian of each cell.
-    pub(super) fn scaled_jacobians(&self) -> Vec<f64> {
+    pub(crate) fn scaled_jacobians(&self) -> Vec<f64> {
         parallel::collect(self.cells.len(), |cell| scaled_jacobian(&self.corners(cell)))
     }
 
     /// The cells around the nodes, each once, ascending.
-    pub(super) fn cells_around(&self, nodes: &[u32]) -> Vec<u32> {
+    pub(crate) fn cells_around(&self, nodes: &[u32]) -> Vec<u32> {
         let mut is_near = vec![false; self.cells.len()];
         for &node in nodes {
             self.star(node).iter().for_each(|&(cell, _)| is_near[cell as usize] = true);
@@ -123,9 +119,20 @@ impl<'a> Problem<'a> {
     }
 
     /// How the cells are now.
-    pub(super) fn state(&mut self) -> State {
+    pub(crate) fn state(&mut self) -> State {
         self.find_positive();
         State { jacobians: self.scaled_jacobians(), positive: self.positive.clone() }
+    }
+
+    /// Has the nodes of lower rank swept first: colours are split by ranks, which are below `ranks`.
+    pub(crate) fn order_by(&mut self, ranks: usize, rank: impl Fn(NodeId) -> usize) {
+        let colours = std::mem::take(&mut self.colours);
+        for wanted in 0..ranks {
+            let of_rank = |colour: &Vec<u32>| -> Vec<u32> {
+                colour.iter().copied().filter(|&n| rank(self.nodes[n as usize]) == wanted).collect()
+            };
+            self.colours.extend(colours.iter().map(of_rank).filter(|colour| !colour.is_empty()));
+        }
     }
 
     /// Greedy colours in the order of nodes.
@@ -155,7 +162,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Copies the nodes back into the mesh; how many stand elsewhere than before.
-    pub(super) fn write_back(&self, positions: &mut [Point]) -> usize {
+    pub(crate) fn write_back(&self, positions: &mut [Point]) -> usize {
         let bits = |p: Point| p.to_array().map(f64::to_bits);
         let mut moved = 0;
         for (node, point) in self.nodes.iter().zip(&self.points).take(self.movable()) {
@@ -163,11 +170,6 @@ impl<'a> Problem<'a> {
             positions[node.index()] = *point;
         }
         moved
-    }
-
-    /// The greatest distance of a movable node from where its freedom lets it be.
-    pub(super) fn off_boundary(&self) -> f64 {
-        parallel::greatest(self.movable(), |i| self.constraints.distance(self.nodes[i], self.points[i]))
     }
 }
 
@@ -204,27 +206,27 @@ fn cell_size(corners: &[Point; 8]) -> f64 {
 
 /// How the cells are at some time.
 #[derive(Clone)]
-pub(super) struct State {
+pub(crate) struct State {
     jacobians: Vec<f64>,
     positive: Vec<bool>,
 }
 
 impl State {
-    pub(super) fn worst(&self) -> Option<f64> {
+    pub(crate) fn worst(&self) -> Option<f64> {
         self.jacobians.iter().copied().reduce(f64::min)
     }
 
-    pub(super) fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.jacobians.iter().sum::<f64>() / self.jacobians.len().max(1) as f64
     }
 
-    pub(super) fn inverted(&self, problem: &Problem) -> Vec<HexId> {
+    pub(crate) fn inverted(&self, problem: &Problem) -> Vec<HexId> {
         let cells = self.positive.iter().zip(&problem.hexes);
         cells.filter(|(positive, _)| !**positive).map(|(_, &hex)| hex).collect()
     }
 
     /// More cells that are not positive, or as many and the worst is worse.
-    pub(super) fn is_worse_than(&self, other: &Self) -> bool {
+    pub(crate) fn is_worse_than(&self, other: &Self) -> bool {
         let count = |state: &Self| state.positive.iter().filter(|&&p| !p).count();
         let (mine, theirs) = (count(self), count(other));
         mine > theirs || mine == theirs && self.worst() < other.worst()

@@ -7,6 +7,7 @@
 //!    and where one was lost by making the round again, with that cell guarded at each of its nodes' steps.
 
 use super::energy::Weights;
+use super::guide::Guide;
 use super::problem::Problem;
 use super::sweep::{Moved, Rules, sweep};
 use super::{OptimizeOptions, SMOOTHING};
@@ -37,8 +38,9 @@ const GUARDED: f64 = 0.2;
 const RINGS: usize = 1;
 
 /// Returns the number of rounds made.
-pub(super) fn smooth(
+pub(crate) fn smooth(
     problem: &mut Problem,
+    guide: &dyn Guide,
     options: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
@@ -57,15 +59,15 @@ pub(super) fn smooth(
         for round in 0..options.smooth_sweeps {
             monitor.checkpoint(SMOOTHING, (index * options.smooth_sweeps + round) as f64 / total)?;
             let worst = jacobians.iter().copied().fold(f64::INFINITY, f64::min);
-            let rules = Rules { weights, eps: 0.0, floor: Some(worst) };
-            let (changed, far) = keep_positive(problem, &mut awake, |problem, awake| {
+            let rules = Rules { guide, weights, eps: 0.0, floor: Some(worst) };
+            let (changed, moved) = keep_positive(problem, &mut awake, |problem, awake| {
                 sweep(problem, rules, &allowed, awake, monitor)
             })?;
             let renewed =
                 parallel::collect(changed.len(), |k| scaled_jacobian(&problem.corners(changed[k] as usize)));
             changed.iter().zip(renewed).for_each(|(&cell, jacobian)| jacobians[cell as usize] = jacobian);
             done += 1;
-            if far == 0 {
+            if moved.far == 0 {
                 break;
             }
         }
@@ -75,16 +77,16 @@ pub(super) fn smooth(
 }
 
 /// Makes a round, again and again until every cell that was positive inside still is: those that were lost are guarded
-/// the next time. The cells that changed, and how many nodes moved far.
-fn keep_positive(
+/// the next time. The cells that changed, and what moved.
+pub(crate) fn keep_positive(
     problem: &mut Problem,
     awake: &mut Vec<bool>,
     mut round: impl FnMut(&mut Problem, &mut [bool]) -> Result<Moved, Cancelled>,
-) -> Result<(Vec<u32>, usize), Cancelled> {
+) -> Result<(Vec<u32>, Moved), Cancelled> {
     let before = (problem.points.clone(), awake.clone());
     loop {
-        let Moved { nodes, far } = round(problem, awake)?;
-        let changed = problem.cells_around(&nodes);
+        let moved = round(problem, awake)?;
+        let changed = problem.cells_around(&moved.nodes);
         let is_positive = parallel::collect(changed.len(), |k| problem.is_positive(changed[k] as usize));
         let now = || changed.iter().map(|&cell| cell as usize).zip(is_positive.iter().copied());
         let lost: Vec<usize> =
@@ -92,7 +94,7 @@ fn keep_positive(
         if lost.is_empty() {
             // Those that became positive are to stay so from now on.
             now().for_each(|(cell, is)| problem.positive[cell] = is);
-            return Ok((changed, far));
+            return Ok((changed, moved));
         }
         lost.into_iter().for_each(|cell| problem.guarded[cell] = true);
         problem.points.clone_from(&before.0);
@@ -106,15 +108,13 @@ mod tests {
     use crate::geometry::Point;
     use crate::mesh::NodeId;
     use crate::mesh::numbering::hex::CORNERS;
-    use crate::optimize::Constraints;
 
     /// A round that loses a cell is made again from where the nodes were, with the cell guarded.
     #[test]
     fn a_cell_that_was_lost_is_guarded() {
         let positions = CORNERS.map(|c| Point::from(c.map(f64::from)));
         let hexes = [[0, 1, 2, 3, 4, 5, 6, 7].map(NodeId)];
-        let constraints = Constraints::none(8);
-        let mut problem = Problem::new(&positions, &hexes, &[true; 8], &constraints);
+        let mut problem = Problem::new(&positions, &hexes, |_| true);
         let mut awake = vec![true; 8];
         let mut starts = Vec::new();
         let done = keep_positive(&mut problem, &mut awake, |problem, awake| {
@@ -123,7 +123,7 @@ mod tests {
             problem.points[6] = if problem.guarded[0] { Point::splat(0.9) } else { Point::splat(-1.0) };
             Ok(Moved { nodes: vec![6], far: 1 })
         });
-        assert_eq!(done, Ok((vec![0], 1)));
+        assert_eq!(done, Ok((vec![0], Moved { nodes: vec![6], far: 1 })));
         assert_eq!(starts, [(Point::ONE, true, false), (Point::ONE, true, true)]);
         assert_eq!(problem.points[6], Point::splat(0.9));
     }

@@ -13,13 +13,13 @@ use crate::mesh::quality::{Certainty, is_positive};
 
 /// The cells that change when one node moves. Kept by each thread from node to node.
 #[derive(Default)]
-pub(super) struct Star {
+pub(crate) struct Star {
     spokes: Vec<Spoke>,
     cells: Vec<Cell>,
     /// Cells that are positive inside and have to stay so, and the node's place in each.
     guarded: Vec<([Point; 8], usize)>,
     /// The mean length of the spokes, each as often as there are cells at it.
-    pub(super) size: f64,
+    pub(crate) size: f64,
 }
 
 /// An edge of the node.
@@ -58,15 +58,15 @@ struct Beside {
 
 /// How a star is with the node in some place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reading {
-    pub(super) energy: f64,
+pub(crate) struct Reading {
+    pub(crate) energy: f64,
     /// The greatest r^2 of the corners that change: of the worst, one over the scaled Jacobian's square without eps.
-    pub(super) worst: f64,
+    pub(crate) worst: f64,
 }
 
 impl Star {
     /// Looks at the cells around `node`; `eps` in units of each cell's volume.
-    pub(super) fn gather(&mut self, problem: &Problem, node: u32, eps: f64) {
+    pub(crate) fn gather(&mut self, problem: &Problem, node: u32, eps: f64) {
         self.clear();
         let v = problem.points[node as usize];
         for &(cell, k) in problem.star(node) {
@@ -128,7 +128,7 @@ impl Star {
     }
 
     /// How the star is with the node at `v`; `None` as soon as the energy is seen to be above `limit` or infinite.
-    pub(super) fn read(&mut self, v: Point, weights: Weights, limit: f64) -> Option<Reading> {
+    pub(crate) fn read(&mut self, v: Point, weights: Weights, limit: f64) -> Option<Reading> {
         self.move_to(v);
         let mut all = Reading { energy: 0.0, worst: 0.0 };
         for cell in &self.cells {
@@ -146,7 +146,7 @@ impl Star {
 
     /// The energy and its derivatives with the node at `v`, and the worst r^2 as in [`Reading`]; `None` where the
     /// energy is infinite.
-    pub(super) fn expand(&mut self, v: Point, weights: Weights) -> Option<(Expansion, f64)> {
+    pub(crate) fn expand(&mut self, v: Point, weights: Weights) -> Option<(Expansion, f64)> {
         self.move_to(v);
         let (n, mut worst) = (weights.power(), 0.0_f64);
         let Expansion { mut value, mut gradient, mut hessian } = Expansion::default();
@@ -202,7 +202,7 @@ impl Star {
     }
 
     /// Do all guarded cells stay positive with the node at `v`?
-    pub(super) fn stays_positive(&mut self, v: Point) -> bool {
+    pub(crate) fn stays_positive(&mut self, v: Point) -> bool {
         self.guarded.iter_mut().all(|(points, k)| {
             points[*k] = v;
             is_positive(points) == Certainty::Positive

@@ -1,6 +1,7 @@
 //! One round over nodes: each is moved to where the energy around it is lower, if that keeps what is to be kept.
 
 use super::energy::{Expansion, Weights};
+use super::guide::{Guide, Pull};
 use super::problem::Problem;
 use super::star::{Reading, Star};
 use super::symmetric::Symmetric;
@@ -18,26 +19,28 @@ const LONGEST: f64 = 0.5;
 const ASLEEP: f64 = 5e-3;
 
 /// The first step tried, in units of Newton's: what one node gains by the longer step is little less, and what is to
-/// wander through many nodes, such as the thickness of a layer, gets there in half the rounds.
+/// wander through many nodes, such as the thickness of a layer, gets there in half the rounds. A node that is drawn would
+/// swing about its goal.
 const OVERRELAXATION: f64 = 1.8;
 
 /// How often a step is halved before the node stays.
 const HALVINGS: usize = 6;
 
 /// What a round lowers and what it keeps.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rules {
-    pub(super) weights: Weights,
+#[derive(Clone, Copy)]
+pub(crate) struct Rules<'a> {
+    pub(crate) guide: &'a dyn Guide,
+    pub(crate) weights: Weights,
     /// Of chi, in units of the cells' volumes.
-    pub(super) eps: f64,
+    pub(crate) eps: f64,
     /// The least scaled Jacobian around a node may fall, but not below this; any, where there is none. Positive cells
     /// stay positive where there is one.
-    pub(super) floor: Option<f64>,
+    pub(crate) floor: Option<f64>,
 }
 
 /// Moves the nodes that are `awake`, colour by colour. A node falls asleep when it hardly moves, and wakes its
 /// neighbours among the `allowed` when it does. The nodes that moved, and how many of them far.
-pub(super) fn sweep(
+pub(crate) fn sweep(
     problem: &mut Problem,
     rules: Rules,
     allowed: &[bool],
@@ -71,15 +74,15 @@ pub(super) fn sweep(
 }
 
 /// What a round did.
-#[derive(Debug, Default)]
-pub(super) struct Moved {
-    pub(super) nodes: Vec<u32>,
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(crate) struct Moved {
+    pub(crate) nodes: Vec<u32>,
     /// How many of the nodes moved so far that it matters to their neighbours.
-    pub(super) far: usize,
+    pub(crate) far: usize,
 }
 
 /// Wakes the node and those that share a cell with it.
-fn wake(problem: &Problem, node: u32, allowed: &[bool], awake: &mut [bool]) {
+pub(crate) fn wake(problem: &Problem, node: u32, allowed: &[bool], awake: &mut [bool]) {
     for &(cell, _) in problem.star(node) {
         for other in problem.cells[cell as usize] {
             if allowed.get(other as usize) == Some(&true) {
@@ -100,18 +103,25 @@ struct Step {
 fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Option<Step> {
     star.gather(problem, node, rules.eps);
     let from = problem.points[node as usize];
-    let (here, worst) = star.expand(from, rules.weights)?;
+    let (mut here, worst) = star.expand(from, rules.weights)?;
     let (id, anchor) = (problem.nodes[node as usize], problem.anchors[node as usize]);
     let size = star.size;
-    let step = newton(here, problem.constraints.tangent(id, from), size)?;
+    let pull = rules.guide.pull(id, from, size);
+    if let Some(pull) = pull {
+        here.draw(pull, from);
+    }
+    let step = newton(here, rules.guide.tangent(id, from), size)?;
     let kept = rules.floor.map(|floor| worst_kept(worst, floor));
-    let at = |share: f64| problem.constraints.project(id, anchor, from + step * share);
+    let at = |share: f64| rules.guide.project(id, anchor, from + step * share);
     let mut lowered = |to: Point, limit: f64| {
-        let Reading { energy, worst } = star.read(to, rules.weights, limit)?;
+        let drawn = pull.map_or(0.0, |pull| pull.energy(to));
+        let Reading { energy, worst } = star.read(to, rules.weights, limit - drawn)?;
+        let energy = energy + drawn;
         let keeps = |kept: f64| worst <= kept && star.stays_positive(to);
         (energy < limit && kept.is_none_or(keeps)).then_some(energy)
     };
-    let (mut share, mut best) = (OVERRELAXATION, lowered(at(OVERRELAXATION), here.value));
+    let mut share = if pull.is_some() { 1.0 } else { OVERRELAXATION };
+    let mut best = lowered(at(share), here.value);
     for _ in 1..HALVINGS {
         if best.is_some() {
             break;
@@ -131,9 +141,18 @@ fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Optio
 
 /// The greatest r^2 that a node's corners may have, of which the greatest is `worst`: the scaled Jacobian may fall, but
 /// not below the floor. A little less than that, so that no rounding lowers the worst of all.
-fn worst_kept(worst: f64, floor: f64) -> f64 {
+pub(crate) fn worst_kept(worst: f64, floor: f64) -> f64 {
     let at_floor = if floor > 0.0 { 1.0 / (floor * floor) } else { f64::INFINITY };
     worst.max(at_floor) * (1.0 - 1e-12)
+}
+
+impl Expansion {
+    /// Adds what draws the node at `p`.
+    fn draw(&mut self, pull: Pull, p: Point) {
+        self.value += pull.energy(p);
+        self.gradient += pull.half_gradient(p) * 2.0;
+        self.hessian += pull.weight * 2.0;
+    }
 }
 
 /// Newton's step within the tangent space; where the energy is not convex, with as much of the identity added as

@@ -6,34 +6,34 @@ use crate::geometry::Point;
 
 /// A symmetric matrix by its diagonal (xx, yy, zz) and what stands beside it (yz, xz, xy).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Symmetric {
-    pub(super) diagonal: Point,
-    pub(super) beside: Point,
+pub(crate) struct Symmetric {
+    pub(crate) diagonal: Point,
+    pub(crate) beside: Point,
 }
 
 impl Symmetric {
-    pub(super) const IDENTITY: Self = Self { diagonal: Point::ONE, beside: Point::ZERO };
+    pub(crate) const IDENTITY: Self = Self { diagonal: Point::ONE, beside: Point::ZERO };
 
     /// `v` times its transpose.
     #[inline]
-    pub(super) fn outer(v: Point) -> Self {
+    pub(crate) fn outer(v: Point) -> Self {
         Self { diagonal: v * v, beside: Point::new(v.y * v.z, v.x * v.z, v.x * v.y) }
     }
 
     /// `v w^T + w v^T`.
     #[inline]
-    pub(super) fn mixed(v: Point, w: Point) -> Self {
+    pub(crate) fn mixed(v: Point, w: Point) -> Self {
         Self {
             diagonal: v * w * 2.0,
             beside: Point::new(v.y * w.z + v.z * w.y, v.x * w.z + v.z * w.x, v.x * w.y + v.y * w.x),
         }
     }
 
-    pub(super) fn trace(self) -> f64 {
+    pub(crate) fn trace(self) -> f64 {
         self.diagonal.element_sum()
     }
 
-    pub(super) fn times(self, v: Point) -> Point {
+    pub(crate) fn times(self, v: Point) -> Point {
         let Self { diagonal: d, beside: b } = self;
         Point::new(
             d.x * v.x + b.z * v.y + b.y * v.z,
@@ -43,7 +43,7 @@ impl Symmetric {
     }
 
     /// `p` times this times `p`, for a projector `p`.
-    pub(super) fn between(self, p: Self) -> Self {
+    pub(crate) fn between(self, p: Self) -> Self {
         let columns = [Point::X, Point::Y, Point::Z].map(|axis| p.times(self.times(p.times(axis))));
         Self {
             diagonal: Point::new(columns[0].x, columns[1].y, columns[2].z),
@@ -52,7 +52,7 @@ impl Symmetric {
     }
 
     /// The solution of this matrix with right side `v`; `None` if the matrix is not positive definite.
-    pub(super) fn solve(self, v: Point) -> Option<Point> {
+    pub(crate) fn solve(self, v: Point) -> Option<Point> {
         let Self { diagonal: d, beside: b } = self;
         // Cholesky without roots: the matrix is L D L^T.
         let small = 1e-14 * self.trace();

@@ -6,6 +6,7 @@
 //! 3. Where that does not get on, more rings may move, and at last the cells left are given up.
 
 use super::energy::Weights;
+use super::guide::Guide;
 use super::problem::Problem;
 use super::sweep::{Rules, sweep};
 use super::{OptimizeOptions, UNTANGLING};
@@ -28,8 +29,9 @@ const SMALL: f64 = 1e-8;
 const SHAPE: Weights = Weights { doublings: 0, mu: 0.0 };
 
 /// Returns the number of rounds made.
-pub(super) fn untangle(
+pub(crate) fn untangle(
     problem: &mut Problem,
+    guide: &dyn Guide,
     options: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
@@ -50,7 +52,7 @@ pub(super) fn untangle(
         for _ in 0..ROUNDS {
             let least = least_determinant(problem, &tangled).min(0.0);
             let eps = (SMALL + DEPTH * least * least).sqrt();
-            let rules = Rules { weights: SHAPE, eps, floor: None };
+            let rules = Rules { guide, weights: SHAPE, eps, floor: None };
             sweep(problem, rules, &allowed, &mut awake, monitor)?;
             // The energy changes with eps.
             awake.clone_from(&allowed);
@@ -75,9 +77,9 @@ fn least_determinant(problem: &Problem, cells: &[usize]) -> f64 {
     cells.iter().map(of_cell).fold(f64::INFINITY, f64::min)
 }
 
-impl Problem<'_> {
+impl Problem {
     /// The movable nodes of the cells, and of `rings` rings of cells around them.
-    pub(super) fn rings_around(&self, cells: &[usize], rings: usize) -> Vec<bool> {
+    pub(crate) fn rings_around(&self, cells: &[usize], rings: usize) -> Vec<bool> {
         let mut reached = vec![false; self.movable()];
         let mut front: Vec<u32> = Vec::new();
         let enter = |cell: usize, reached: &mut Vec<bool>, front: &mut Vec<u32>| {

@@ -1,0 +1,170 @@
+//! Fits a mesh to its solid without ever returning an inverted cell: the paper's geometric optimisation (section 6).
+//!
+//! The energy is that of [`optimize`](crate::optimize); the order of the steps makes the promise:
+//!
+//! 1. `inflate`: cells of new sheets are pushed open, all nodes free, until every cell is positive;
+//! 2. `pull`: boundary nodes are drawn to their corner, curve or surface, ever more strongly, and held there (`snap`) as
+//!    soon as the cells bear it. No step is taken that turns a cell over;
+//! 3. `unlock`: around nodes that got stuck the others are let go for a while;
+//! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: while
+//!    nodes are stuck, the last two steps are made once more.
+//!
+//! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
+//! off the solid and is reported with its distance.
+//!
+//! **Departure from the paper.** It projects first and then moves each bad node to the best place of a box around it;
+//! that leaves cells inverted. Here cells are positive first, and stay so.
+
+mod holds;
+mod inflate;
+mod pull;
+mod snap;
+mod target;
+mod unlock;
+
+use super::correspondence::Correspondence;
+use super::sheets::SheetReport;
+use crate::geometry::Point;
+use crate::mesh::quality::scaled_jacobian;
+use crate::mesh::{HexId, HexMesh, NodeId};
+use crate::optimize::{OptimizeOptions, Problem, smooth};
+use crate::solid::SolidModel;
+use crate::{Cancelled, Monitor, Stage, parallel};
+use holds::{Hold, Holds};
+use inflate::inflate;
+use pull::{Course, pull};
+use target::{OnSolid, Target};
+use unlock::unlock;
+
+const FITTING: Stage = Stage("fitting");
+
+/// Drawing the boundary makes no cell worse than this, unless it is already.
+const FLOOR: f64 = 0.2;
+
+/// How often stuck nodes are unlocked and cells smoothed, at most.
+const ROUNDS: usize = 2;
+
+/// Rings of cells around the boundary that are moved at first; others follow where these move far.
+const RINGS: usize = 3;
+
+/// How far to go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitOptions {
+    /// Sweeps that draw the boundary to the solid, at most.
+    pub sweeps: usize,
+    /// How the cells are smoothed in the end.
+    pub smoothing: OptimizeOptions,
+}
+
+impl Default for FitOptions {
+    fn default() -> Self {
+        Self { sweeps: 40, smoothing: OptimizeOptions { smooth_sweeps: 10, ..Default::default() } }
+    }
+}
+
+/// A boundary node that is not where it belongs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OffNode {
+    /// The node.
+    pub node: NodeId,
+    /// Where it is.
+    pub place: Point,
+    /// How far it is from its corner, curve or surface, in model units.
+    pub distance: f64,
+}
+
+/// What came of a fit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FitReport {
+    /// Sheets and collars that were taken back, since their cells could not be pushed open.
+    pub taken_back: usize,
+    /// Sweeps over nodes.
+    pub sweeps: usize,
+    /// Boundary nodes that are off the solid, the farthest first.
+    pub off: Vec<OffNode>,
+    /// The least scaled Jacobian; `None` if there are no hexes.
+    pub worst: Option<f64>,
+    /// The mean scaled Jacobian.
+    pub mean: f64,
+    /// Hexes that are not certainly positive, ascending: none, if all were positive before sheets were inserted.
+    pub inverted: Vec<HexId>,
+}
+
+/// Moves the nodes of `mesh` to the solid as `on` tells. Sheets that cannot be fitted are taken back, in all of `mesh`,
+/// `on` and `sheets`.
+///
+/// # Errors
+/// [`Cancelled`] when the monitor says so; then nodes are where they were.
+pub fn fit(
+    mesh: &mut HexMesh,
+    on: &mut Correspondence,
+    sheets: &mut SheetReport,
+    solid: &SolidModel,
+    options: &FitOptions,
+    monitor: &dyn Monitor,
+) -> Result<FitReport, Cancelled> {
+    let reduction = on.reduction.clone();
+    fit_to(mesh, on, sheets, &OnSolid { solid, reduction: &reduction }, options, monitor)
+}
+
+fn fit_to(
+    mesh: &mut HexMesh,
+    on: &mut Correspondence,
+    sheets: &mut SheetReport,
+    target: &dyn Target,
+    options: &FitOptions,
+    monitor: &dyn Monitor,
+) -> Result<FitReport, Cancelled> {
+    let inflated = inflate(mesh, on, sheets, target, monitor)?;
+    let (mut problem, mut sweeps) = (inflated.problem, inflated.sweeps);
+    let mut holds = Holds::drawn(target, &on.anchors);
+    // Corners first, then curves, surfaces, and the inside.
+    problem.order_by(4, |n| on.anchors[n.index()].freedom());
+
+    let boundary: Vec<u32> =
+        (0..problem.movable() as u32).filter(|&n| holds.is(problem.nodes[n as usize], Hold::Drawn)).collect();
+    let cells: Vec<usize> = problem.cells_around(&boundary).into_iter().map(|c| c as usize).collect();
+    let mut awake = problem.rings_around(&cells, RINGS);
+    let course = Course { stage: FITTING, sweeps: options.sweeps, floor: FLOOR };
+    sweeps += pull(&mut problem, &mut holds, &mut awake, course, monitor)?;
+    for _ in 0..ROUNDS {
+        sweeps += unlock(&mut problem, &mut holds, monitor)?;
+        holds.weight = 0.0;
+        sweeps += smooth(&mut problem, &holds, &options.smoothing, monitor)?;
+        if holds.stuck() == 0 {
+            break;
+        }
+    }
+
+    problem.write_back(&mut mesh.positions);
+    let mut report = measured(mesh, &problem, &holds);
+    (report.taken_back, report.sweeps) = (inflated.taken_back, sweeps);
+    Ok(report)
+}
+
+/// How the mesh is now.
+fn measured(mesh: &HexMesh, problem: &Problem, holds: &Holds) -> FitReport {
+    let jacobians = parallel::collect(mesh.hexes.len(), |h| {
+        scaled_jacobian(&mesh.hexes[h].map(|n| mesh.positions[n.index()]))
+    });
+    let mut off = parallel::filter_map(mesh.positions.len(), |n| {
+        let place = mesh.positions[n];
+        let foot = holds.target.foot(holds.anchors[n], place)?;
+        let off = OffNode { node: NodeId::new(n), place, distance: foot.point.distance(place) };
+        holds.is(off.node, Hold::Drawn).then_some(off)
+    });
+    off.sort_by(|a, b| b.distance.total_cmp(&a.distance).then(a.node.cmp(&b.node)));
+    FitReport {
+        off,
+        worst: jacobians.iter().copied().reduce(f64::min),
+        mean: jacobians.iter().sum::<f64>() / jacobians.len().max(1) as f64,
+        inverted: parallel::filter(problem.cells.len(), |cell| !problem.is_positive(cell))
+            .into_iter()
+            .map(HexId)
+            .collect(),
+        ..Default::default()
+    }
+}
+
+#[cfg(test)]
+mod tests;

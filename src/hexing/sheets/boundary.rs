@@ -1,0 +1,89 @@
+//! The boundary of a mesh while sheets are inserted: its quads, the surface and the side of each.
+
+use super::super::correspondence::Correspondence;
+use crate::mesh::numbering::hex::FACES;
+use crate::mesh::topology::{Side, hex_boundary, hex_of, side_nodes};
+use crate::mesh::{HexId, HexMesh, NodeId};
+use crate::solid::SurfaceId;
+
+/// No quad.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// The boundary quads, in no particular order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Boundary {
+    /// The nodes of each quad, outward.
+    pub(super) quads: Vec<[NodeId; 4]>,
+    /// The surface of the solid that each lies on.
+    pub(super) surface: Vec<SurfaceId>,
+    /// The side of a hex that each is.
+    pub(super) sides: Vec<Side>,
+}
+
+impl Boundary {
+    /// The boundary of a mesh; `on` gives its quads in their order.
+    pub(super) fn of(mesh: &HexMesh, on: &Correspondence) -> Self {
+        let found = hex_boundary(&mesh.hexes);
+        debug_assert_eq!(found.len(), on.faces.len());
+        let side = |(quad, hex): &([NodeId; 4], HexId)| {
+            let sides = (6 * hex.0..).take(FACES.len());
+            sides.into_iter().find(|&side| side_nodes(&mesh.hexes, side) == *quad).unwrap_or(NONE)
+        };
+        Self {
+            sides: found.iter().map(side).collect(),
+            quads: found.into_iter().map(|(quad, _)| quad).collect(),
+            surface: on.faces.iter().map(|&(_, surface)| surface).collect(),
+        }
+    }
+
+    /// The quads with their surfaces, in the order of [`hex_boundary`].
+    pub(super) fn in_order(&self) -> Vec<([NodeId; 4], SurfaceId)> {
+        let mut order: Vec<usize> = (0..self.quads.len()).collect();
+        order.sort_unstable_by_key(|&q| self.sides[q]);
+        order.into_iter().map(|q| (self.quads[q], self.surface[q])).collect()
+    }
+
+    /// The hex that has a quad.
+    pub(super) fn hex(&self, quad: u32) -> usize {
+        hex_of(self.sides[quad as usize]).index()
+    }
+
+    /// The edges of the quads of which some end is `wanted`.
+    pub(super) fn edges(&self, wanted: impl Fn(NodeId) -> bool) -> BoundaryEdges {
+        let mut uses: Vec<([NodeId; 2], u32)> = Vec::new();
+        for (q, quad) in (0u32..).zip(&self.quads) {
+            if quad.iter().any(|&n| wanted(n)) {
+                let edges = (0..4).map(|k| [quad[k], quad[(k + 1) % 4]]);
+                uses.extend(
+                    edges.filter(|edge| edge.iter().any(|&n| wanted(n))).map(|edge| (ascending(edge), q)),
+                );
+            }
+        }
+        uses.sort_unstable();
+        BoundaryEdges(uses)
+    }
+}
+
+/// Edges with the quads at them.
+pub(super) struct BoundaryEdges(Vec<([NodeId; 2], u32)>);
+
+impl BoundaryEdges {
+    /// The two quads at an edge; `None` if it has not two.
+    pub(super) fn quads(&self, edge: [NodeId; 2]) -> Option<[u32; 2]> {
+        let edge = ascending(edge);
+        let first = self.0.partition_point(|&(other, _)| other < edge);
+        match self.0[first..] {
+            [(a, p), (b, q), ref rest @ ..]
+                if a == edge && b == edge && rest.first().is_none_or(|r| r.0 != edge) =>
+            {
+                Some([p, q])
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The ends of an edge, the lesser first.
+pub(super) fn ascending([a, b]: [NodeId; 2]) -> [NodeId; 2] {
+    [a.min(b), a.max(b)]
+}

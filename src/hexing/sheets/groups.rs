@@ -1,0 +1,151 @@
+//! Surfaces in groups: those that meet so flatly, or at a concave curve, that one sheet has to lie over all of them.
+
+use std::collections::BTreeMap;
+
+use super::super::correspondence::{Anchor, Reduction};
+use crate::mesh::topology::Sets;
+use crate::solid::{CornerId, CurveId, SolidModel, SurfaceId};
+
+/// Surfaces that meet at a greater angle inside the solid than this belong to one group, in degrees; so do those on both
+/// sides of a sector of a surface that is wider than this at a corner. One hex at such a place would be nearly flat or
+/// worse.
+const FLAT: f64 = 140.0;
+
+/// The groups of a solid's surfaces.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Groups {
+    /// The group of each surface, by the least surface in it.
+    of_surface: Vec<u32>,
+    /// For each curve: do its sides meet so flatly that no hex may have it for an edge of two boundary quads?
+    is_flat: Vec<bool>,
+    /// The corners where a surface has a sector wider than [`FLAT`].
+    wide: Vec<(CornerId, SurfaceId)>,
+}
+
+impl Groups {
+    /// The groups of the surfaces of `solid` that stand for others after `reduction`.
+    pub(super) fn of(solid: &SolidModel, reduction: &Reduction) -> Self {
+        Self::with(solid, |surface| reduction.surface(surface), |corner| reduction.corner(corner))
+    }
+
+    /// The groups, where `surface` and `corner` tell what stands for each.
+    pub(super) fn with(
+        solid: &SolidModel,
+        surface: impl Fn(SurfaceId) -> SurfaceId,
+        corner: impl Fn(CornerId) -> CornerId,
+    ) -> Self {
+        let is_flat: Vec<bool> = solid.curves().iter().map(|curve| curve.interior_angle > FLAT).collect();
+        let mut sets = Sets::new(solid.surfaces().len());
+        let mut unite = |a: SurfaceId, b: SurfaceId| {
+            sets.join(surface(a).0, surface(b).0, false);
+        };
+        for (curve, &is_flat) in solid.curves().iter().zip(&is_flat) {
+            if is_flat {
+                let [a, b] = curve.sides;
+                unite(a, b);
+            }
+        }
+        let mut wide = Vec::new();
+        for sector in sectors(solid) {
+            if sector.degrees > FLAT {
+                let [a, b] = sector.beside;
+                unite(a, b);
+                wide.push((corner(sector.corner), surface(sector.surface)));
+            }
+        }
+        wide.sort_unstable();
+        let group = |s: usize| sets.root(surface(SurfaceId::new(s)).0).0;
+        Self { of_surface: (0..solid.surfaces().len()).map(group).collect(), is_flat, wide }
+    }
+
+    /// The group of a surface.
+    pub(super) fn group(&self, surface: SurfaceId) -> u32 {
+        self.of_surface[surface.index()]
+    }
+
+    /// No group is numbered this or higher.
+    pub(super) fn bound(&self) -> usize {
+        self.of_surface.len()
+    }
+
+    /// Do the sides of the curve meet flatly?
+    pub(super) fn is_flat(&self, curve: CurveId) -> bool {
+        self.is_flat[curve.index()]
+    }
+
+    /// Is a quad of the surface flat at a node there, if both of its edges lie on curves?
+    pub(super) fn is_wide(&self, at: Anchor, surface: SurfaceId) -> bool {
+        match at {
+            Anchor::Corner(corner) => self.wide.binary_search(&(corner, surface)).is_ok(),
+            _ => true, // a smooth curve
+        }
+    }
+}
+
+/// What is between two arms of a corner.
+struct Sector {
+    corner: CornerId,
+    surface: SurfaceId,
+    degrees: f64,
+    /// The surfaces across the two arms.
+    beside: [SurfaceId; 2],
+}
+
+/// The sectors of all corners, by walking the fans of triangles from arm to arm.
+fn sectors(solid: &SolidModel) -> Vec<Sector> {
+    let vertices: BTreeMap<u32, usize> =
+        solid.corners().iter().enumerate().map(|(c, corner)| (corner.vertex, c)).collect();
+    // For each corner the fan: from a vertex around it to the next, with the angle between and the triangle's surface.
+    let mut fans: Vec<BTreeMap<u32, (u32, f64, SurfaceId)>> = vec![BTreeMap::new(); vertices.len()];
+    for (t, triangle) in solid.triangles().iter().enumerate() {
+        for k in 0..3 {
+            let [at, from, to] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| triangle[k]);
+            if let Some(&c) = vertices.get(&at) {
+                let [p, a, b] = [at, from, to].map(|v| solid.points()[v as usize]);
+                let (a, b) = (a - p, b - p);
+                let degrees = libm::atan2(a.cross(b).length(), a.dot(b)).to_degrees();
+                fans[c].insert(from, (to, degrees, solid.surface_of(t)));
+            }
+        }
+    }
+    let mut all = Vec::new();
+    for (c, corner) in solid.corners().iter().enumerate() {
+        let ends: Vec<u32> = corner
+            .arms
+            .iter()
+            .map(|arm| {
+                let vertices = &solid.curves()[arm.curve.index()].vertices;
+                if arm.at_start { vertices[1] } else { vertices[vertices.len() - 2] }
+            })
+            .collect();
+        let walk = |from: u32, to: u32| {
+            let (mut at, mut degrees, mut surface) = (from, 0.0, None);
+            for _ in 0..fans[c].len() {
+                let &(next, angle, on) = fans[c].get(&at)?;
+                (at, degrees, surface) = (next, degrees + angle, surface.or(Some(on)));
+                if at == to {
+                    return Some((degrees, surface?));
+                }
+            }
+            None
+        };
+        let found: Vec<Option<(f64, SurfaceId)>> =
+            (0..ends.len()).map(|i| walk(ends[i], ends[(i + 1) % ends.len()])).collect();
+        let count = found.len();
+        for (i, sector) in found.iter().enumerate() {
+            let (before, after) = (found[(i + count - 1) % count], found[(i + 1) % count]);
+            if let (&Some((degrees, surface)), Some((_, a)), Some((_, b))) = (sector, before, after) {
+                all.push(Sector { corner: CornerId::new(c), surface, degrees, beside: [a, b] });
+            }
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+impl Groups {
+    /// Groups as given, all curves between groups sharp and all sectors narrow.
+    pub(super) fn given(of_surface: &[u32], is_flat: &[bool]) -> Self {
+        Self { of_surface: of_surface.to_vec(), is_flat: is_flat.to_vec(), wide: Vec::new() }
+    }
+}

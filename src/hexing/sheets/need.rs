@@ -1,0 +1,148 @@
+//! Which groups of surfaces need a sheet: where a cell would be flat on the solid.
+//!
+//! A group needs one if
+//! 1. a hex has two faces in it that share an edge, and no sharp curve runs there;
+//! 2. an edge between it and another group has not exactly one hex;
+//! 3. a quad of another group beside it has two edges on the curve between them, and no corner there.
+
+use super::super::correspondence::Correspondence;
+use super::boundary::{Boundary, BoundaryEdges, ascending};
+use super::groups::Groups;
+use crate::mesh::numbering::hex::EDGES;
+use crate::mesh::{HexMesh, NodeId};
+use crate::parallel;
+use crate::solid::CurveId;
+
+/// What of the boundary is looked at.
+pub(super) struct Look<'a> {
+    pub(super) mesh: &'a HexMesh,
+    pub(super) on: &'a Correspondence,
+    pub(super) boundary: &'a Boundary,
+    pub(super) groups: &'a Groups,
+    edges: BoundaryEdges,
+}
+
+impl<'a> Look<'a> {
+    pub(super) fn new(
+        mesh: &'a HexMesh,
+        on: &'a Correspondence,
+        boundary: &'a Boundary,
+        groups: &'a Groups,
+    ) -> Self {
+        let mut on_curve = vec![false; mesh.positions.len()];
+        on.edges.iter().for_each(|(ends, _)| ends.iter().for_each(|n| on_curve[n.index()] = true));
+        Self { edges: boundary.edges(|n| on_curve[n.index()]), mesh, on, boundary, groups }
+    }
+
+    /// For each group: does it need a sheet?
+    pub(super) fn needs(&self) -> Vec<bool> {
+        let mut needs = vec![false; self.groups.bound()];
+        let mut need = |group: u32| needs[group as usize] = true;
+        self.bent_hexes().into_iter().for_each(&mut need);
+        for ([p, q], count) in self.hexes_at_curves() {
+            let groups = [p, q].map(|quad| self.group(quad));
+            if groups[0] != groups[1] && count != 1 {
+                groups.into_iter().for_each(&mut need);
+            }
+        }
+        for corner in self.flat_corners() {
+            corner.across.iter().map(|&quad| self.group(quad)).for_each(|group| {
+                if group != self.group(corner.quad) {
+                    need(group);
+                }
+            });
+        }
+        needs
+    }
+
+    fn group(&self, quad: u32) -> u32 {
+        self.groups.group(self.boundary.surface[quad as usize])
+    }
+
+    fn curve(&self, ends: [NodeId; 2]) -> Option<CurveId> {
+        let ends = ascending(ends);
+        let place = self.on.edges.partition_point(|&(other, _)| other < ends);
+        self.on.edges.get(place).filter(|(other, _)| *other == ends).map(|&(_, curve)| curve)
+    }
+
+    /// The groups in which hexes have two faces that share an edge without a sharp curve.
+    fn bent_hexes(&self) -> Vec<u32> {
+        let boundary = self.boundary;
+        let mut by_side: Vec<u32> = (0..boundary.quads.len() as u32).collect();
+        by_side.sort_unstable_by_key(|&q| boundary.sides[q as usize]);
+        let mut bent = Vec::new();
+        for of_hex in by_side.chunk_by(|&p, &q| boundary.hex(p) == boundary.hex(q)) {
+            for (i, &p) in of_hex.iter().enumerate() {
+                for &q in of_hex[..i].iter().filter(|&&q| self.group(q) == self.group(p)) {
+                    let is_smooth = |ends| self.curve(ends).is_none_or(|curve| self.groups.is_flat(curve));
+                    if shared_edge(boundary.quads[p as usize], boundary.quads[q as usize])
+                        .is_some_and(is_smooth)
+                    {
+                        bent.push(self.group(p));
+                    }
+                }
+            }
+        }
+        bent
+    }
+
+    /// The two quads at each edge on a curve, and how many hexes it has.
+    fn hexes_at_curves(&self) -> Vec<([u32; 2], u32)> {
+        let mut on_curve = vec![false; self.mesh.positions.len()];
+        self.on.edges.iter().for_each(|(ends, _)| ends.iter().for_each(|n| on_curve[n.index()] = true));
+        let found = parallel::gather(self.mesh.hexes.len(), |h, found: &mut Vec<u32>| {
+            let hex = &self.mesh.hexes[h];
+            let near = hex.map(|n| on_curve[n.index()]);
+            for [a, b] in EDGES.map(|ends| ends.map(usize::from)) {
+                if near[a] && near[b] {
+                    let ends = ascending([hex[a], hex[b]]);
+                    let place = self.on.edges.partition_point(|&(other, _)| other < ends);
+                    if self.on.edges.get(place).is_some_and(|(other, _)| *other == ends) {
+                        found.push(place as u32);
+                    }
+                }
+            }
+        });
+        let mut counts = vec![0u32; self.on.edges.len()];
+        found.into_iter().for_each(|place| counts[place as usize] += 1);
+        let with_quads = self.on.edges.iter().zip(counts);
+        with_quads.filter_map(|(&(ends, _), count)| Some((self.edges.quads(ends)?, count))).collect()
+    }
+
+    /// Corners of quads that would be flat on the solid, since both edges lie on curves and no corner is between them.
+    pub(super) fn flat_corners(&self) -> Vec<FlatCorner> {
+        let mut found = Vec::new();
+        for (q, quad) in (0u32..).zip(&self.boundary.quads) {
+            for k in 0..4 {
+                let [before, node, after] = [k + 3, k, k + 1].map(|k| quad[k % 4]);
+                let anchor = self.on.anchors[node.index()];
+                if !self.groups.is_wide(anchor, self.boundary.surface[q as usize]) {
+                    continue;
+                }
+                let edges = [[before, node], [node, after]];
+                if edges.iter().all(|&ends| self.curve(ends).is_some()) {
+                    let across = edges.map(|ends| {
+                        let other = self.edges.quads(ends).map(|[a, b]| if a == q { b } else { a });
+                        other.unwrap_or(q)
+                    });
+                    found.push(FlatCorner { quad: q, node, across });
+                }
+            }
+        }
+        found
+    }
+}
+
+/// A corner of a quad that would be flat.
+pub(super) struct FlatCorner {
+    pub(super) quad: u32,
+    pub(super) node: NodeId,
+    /// The quads across its two edges.
+    pub(super) across: [u32; 2],
+}
+
+/// The edge that two quads of a hex share.
+fn shared_edge(p: [NodeId; 4], q: [NodeId; 4]) -> Option<[NodeId; 2]> {
+    let mut shared = p.into_iter().filter(|n| q.contains(n));
+    Some([shared.next()?, shared.next()?])
+}

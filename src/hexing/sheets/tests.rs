@@ -1,0 +1,258 @@
+use super::testing::{cubes, side_of_box, told, voxels};
+use super::*;
+use crate::Silent;
+use crate::geometry::Point;
+use crate::hexing::correspondence::Anchor;
+use crate::mesh::PolygonMesh;
+use crate::mesh::check::{Defect, check_hexes};
+use crate::mesh::topology::{HexEdges, HexFaces, hex_boundary, hex_report};
+use crate::solid::{CornerId, SolidOptions, SurfaceId};
+
+/// Euler characteristic of a mesh that has to be conforming, a manifold and without loose nodes.
+fn euler(mesh: &HexMesh) -> i64 {
+    let allowed = |defect: &Defect| matches!(defect, Defect::InvertedHex { .. });
+    let defects: Vec<Defect> = check_hexes(mesh).into_iter().filter(|d| !allowed(d)).collect();
+    assert_eq!(defects, []);
+    let n = mesh.positions.len();
+    let report = hex_report(mesh, &HexFaces::of(n, &mesh.hexes), &HexEdges::of(n, &mesh.hexes));
+    assert!(report.is_manifold(), "{report:?}");
+    report.euler
+}
+
+/// What has to be true of a correspondence for a mesh.
+fn assert_true(mesh: &HexMesh, on: &Correspondence) {
+    let boundary: Vec<[NodeId; 4]> = hex_boundary(&mesh.hexes).into_iter().map(|(quad, _)| quad).collect();
+    assert_eq!(boundary, on.faces.iter().map(|&(quad, _)| quad).collect::<Vec<_>>());
+    assert_eq!(on.anchors.len(), mesh.positions.len());
+    assert!(on.edges.is_sorted());
+    // Edges between surfaces are those on curves, and nothing else is.
+    let again = labelled(mesh, on);
+    let ends = |on: &Correspondence| on.edges.iter().map(|&(ends, _)| ends).collect::<Vec<_>>();
+    assert_eq!(ends(&again), ends(on));
+    for (n, (now, told)) in on.anchors.iter().zip(&again.anchors).enumerate() {
+        match (now, told) {
+            (Anchor::Surface(a), Anchor::Surface(b)) => assert_eq!(a, b),
+            _ => assert_eq!(now.freedom(), told.freedom(), "node {n}: {now:?} {told:?}"),
+        }
+    }
+    for (ends, curve) in &on.edges {
+        for n in ends {
+            match on.anchors[n.index()] {
+                Anchor::Curve(c) => assert_eq!(c, *curve),
+                anchor => assert!(matches!(anchor, Anchor::Corner(_)), "{anchor:?}"),
+            }
+        }
+    }
+}
+
+/// The correspondence that the surfaces of the faces make, with curves and corners numbered anew.
+fn labelled(mesh: &HexMesh, on: &Correspondence) -> Correspondence {
+    // `told` sees faces by their order.
+    let next = std::cell::Cell::new(0);
+    told(mesh, |_, _| {
+        let surface = on.faces[next.get()].1;
+        next.set(next.get() + 1);
+        surface.0
+    })
+}
+
+struct Case {
+    mesh: HexMesh,
+    on: Correspondence,
+    report: SheetReport,
+}
+
+/// Inserts sheets, and takes them back once to see that everything is as before.
+fn inserted(mesh: HexMesh, on: Correspondence, groups: &Groups) -> Case {
+    let before = (mesh.clone(), on.clone(), euler(&mesh));
+    assert_true(&mesh, &on);
+    let (mut mesh, mut on) = (mesh, on);
+    let report = insert(&mut mesh, &mut on, groups, &Silent).unwrap();
+    assert_eq!(euler(&mesh), before.2);
+    assert_true(&mesh, &on);
+    assert_eq!(report.hexes, mesh.hexes.len() - before.0.hexes.len());
+    assert_eq!(on.anchors[..before.1.anchors.len()], before.1.anchors, "old nodes stay what they were");
+    assert_eq!(mesh.positions[..before.0.positions.len()], before.0.positions);
+    let (mut undone, mut undone_on, mut left) = (mesh.clone(), on.clone(), report.clone());
+    while left.take_back(&mut undone, &mut undone_on) {
+        assert_true(&undone, &undone_on);
+    }
+    assert_eq!((undone, undone_on), (before.0, before.1));
+    assert_eq!((left.sheets, left.collars, left.hexes), (0, 0, 0));
+    // Nobody needs anything any more.
+    let look = (Boundary::of(&mesh, &on), &on);
+    let look = Look::new(&mesh, look.1, &look.0, groups);
+    assert!(look.needs().iter().all(|&needs| !needs) || !report.pinched.is_empty());
+    assert_eq!(look.flat_corners().is_empty(), report.flat.is_empty());
+    Case { mesh, on, report }
+}
+
+/// Each surface a group of its own, no curve flat.
+fn apart(surfaces: u32, curves: usize) -> Groups {
+    Groups::given(&(0..surfaces).collect::<Vec<_>>(), &vec![false; curves])
+}
+
+#[test]
+fn a_smooth_ball_gets_one_sheet_all_over() {
+    let mesh = voxels(&cubes(6, |p| p.length() < 2.9));
+    let on = told(&mesh, |_, _| 0);
+    let (hexes, quads, nodes) = (mesh.hexes.len(), on.faces.len(), mesh.positions.len());
+    let Case { mesh, on, report } = inserted(mesh, on, &apart(1, 0));
+    assert_eq!((report.sheets, report.collars, report.hexes), (1, 0, quads));
+    assert_eq!(mesh.hexes.len(), hexes + quads);
+    assert_eq!(on.faces.len(), quads);
+    // A closed surface of quads has two more nodes than quads, and each was copied.
+    assert_eq!(mesh.positions.len(), nodes + quads + 2);
+    assert!(on.anchors[nodes..].iter().all(|&anchor| anchor == Anchor::Inside));
+}
+
+#[test]
+fn a_box_that_fits_needs_no_sheet() {
+    let mesh = voxels(&cubes(3, |_| true));
+    let on = told(&mesh, side_of_box);
+    assert_eq!((on.edges.len(), inserted(mesh, on, &apart(6, 12)).report), (36, SheetReport::default()));
+}
+
+/// Of a cylinder the wall alone: the sheet ends at the circles and adds a ring of quads to both ends.
+#[test]
+fn a_cylinder_gets_a_sheet_around() {
+    let mesh = voxels(&cubes(6, |p| p.truncate().length() < 2.9));
+    let wall = |_: Point, normal: Point| {
+        if normal.z > 0.5 { 2 } else { u32::from(normal.z > -0.5) }
+    };
+    let on = told(&mesh, wall);
+    let count = |on: &Correspondence, s: u32| on.faces.iter().filter(|f| f.1 == SurfaceId(s)).count();
+    let (ends, around) = (count(&on, 0), count(&on, 1) / 6);
+    let Case { on, report, .. } = inserted(mesh, on, &apart(3, 2));
+    assert_eq!((report.sheets, report.collars, report.hexes), (1, 0, 6 * around));
+    assert_eq!([0, 1, 2].map(|s| count(&on, s)), [ends + around, 6 * around, ends + around]);
+    assert_eq!(on.edges.len(), 2 * around, "the circles have as many edges as before");
+}
+
+/// A round boss on a plate: the wall and the plate's top meet at a concave circle and get one sheet, and at each place
+/// where the circle of cubes turns outwards the plate's quad there a collar.
+#[test]
+fn a_boss_gets_collars_at_its_foot() {
+    let mesh = voxels(&cubes(8, |p| p.z < -2.0 || p.z < 2.0 && p.truncate().length() < 2.9));
+    let place = |middle: Point, normal: Point| match side_of_box(middle, normal) {
+        side if (middle.x - 4.0).abs().max((middle.y - 4.0).abs()) > 3.9 => side,
+        5 if middle.z > 3.0 => 6,
+        side @ (4 | 5) => side,
+        _ => 7,
+    };
+    let on = told(&mesh, place);
+    // Surfaces 5, the plate's top, and 7, the wall, are one group; the circle between them is flat.
+    let foot = on.edges.iter().find(|(ends, _)| {
+        ends.iter().all(|n| mesh.positions[n.index()].z == 2.0)
+            && ends.iter().all(|n| (mesh.positions[n.index()].truncate() - 4.0).abs().max_element() < 4.0)
+    });
+    let curves = on.edges.iter().map(|&(_, curve)| curve.index() + 1).max().unwrap();
+    let mut is_flat = vec![false; curves];
+    is_flat[foot.unwrap().1.index()] = true;
+    let groups = Groups::given(&[0, 1, 2, 3, 4, 5, 6, 5], &is_flat);
+    let Case { report, .. } = inserted(mesh, on, &groups);
+    assert_eq!((report.sheets, report.flat.len(), report.pinched.len()), (1, 0, 0), "{report:?}");
+    assert!(report.collars > 0 && report.collars <= 8, "{report:?}");
+}
+
+/// A surface that touches itself at a node alone cannot be covered.
+#[test]
+fn a_pinched_sheet_is_refused() {
+    let mut mesh = voxels(&cubes(4, |_| true));
+    let is_chequered = |p: Point| (p.x < 2.0) == (p.y < 2.0);
+    let mut on = told(&mesh, |p, normal| u32::from(normal.z > 0.5 && is_chequered(p)));
+    let before = (mesh.clone(), on.clone());
+    let mut boundary = Boundary::of(&mesh, &on);
+    let quads = quads_of(&boundary, &apart(2, 1), 1);
+    let torn = pillow(&mut mesh, &mut on, &mut boundary, &ShrinkSet::Sheet(&quads));
+    let middle = mesh.positions.iter().position(|&p| p == Point::new(2.0, 2.0, 4.0)).unwrap();
+    assert_eq!(torn, Err(Torn(vec![NodeId::new(middle)])));
+    assert_eq!((mesh, on), before);
+}
+
+/// The solid over a polygon in the plane z = 0, as high as 1.
+fn prism(polygon: &[[f64; 2]]) -> SolidModel {
+    let n = polygon.len() as u32;
+    let mut surface = PolygonMesh::default();
+    for z in [0.0, 1.0] {
+        surface.positions.extend(polygon.iter().map(|&[x, y]| Point::new(x, y, z)));
+    }
+    surface.push_face((0..n).rev().map(NodeId));
+    surface.push_face((n..2 * n).map(NodeId));
+    for k in 0..n {
+        let next = (k + 1) % n;
+        surface.push_face([k, next, n + next, n + k].map(NodeId));
+    }
+    SolidModel::new(&surface, &SolidOptions::default(), &Silent).unwrap().0
+}
+
+/// The groups of a prism's surfaces, each with as many surfaces as given, and the surfaces wide at corners.
+fn expect_groups(polygon: &[[f64; 2]], sizes: &[usize], wide: usize) {
+    let solid = prism(polygon);
+    let alone = |s: SurfaceId| s;
+    let groups = Groups::with(&solid, alone, |c| c);
+    let mut counts = vec![0; groups.bound()];
+    (0..groups.bound()).for_each(|s| counts[groups.group(SurfaceId::new(s)) as usize] += 1);
+    counts.retain(|&count| count > 0);
+    counts.sort_unstable();
+    assert_eq!(counts, sizes);
+    let corners = (0..solid.corners().len()).map(|c| Anchor::Corner(CornerId::new(c)));
+    let is_wide = |&(corner, s): &(Anchor, usize)| groups.is_wide(corner, SurfaceId::new(s));
+    let pairs = corners.flat_map(|corner| (0..groups.bound()).map(move |s| (corner, s)));
+    assert_eq!(pairs.filter(is_wide).count(), wide);
+}
+
+#[test]
+fn surfaces_are_grouped_where_they_are_flat_or_concave() {
+    expect_groups(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], &[1; 6], 0);
+    // At the concave edge two walls are one group; both ends have a wide sector there.
+    let corner = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    expect_groups(&corner, &[1, 1, 1, 1, 1, 1, 2], 2);
+    // A wall with a bend of 36 degrees is one group and flat at both ends of the bend.
+    let bend = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 2.325], [0.0, 2.0]];
+    expect_groups(&bend, &[1, 1, 1, 1, 1, 2], 2);
+}
+
+#[test]
+fn a_monitor_stops_sheets() {
+    struct Stopped;
+    impl Monitor for Stopped {
+        fn progress(&self, _: Stage, _: f64) {}
+        fn cancelled(&self) -> bool {
+            true
+        }
+    }
+    let mut mesh = voxels(&cubes(3, |_| true));
+    let mut on = told(&mesh, |_, _| 0);
+    assert_eq!(insert(&mut mesh, &mut on, &apart(1, 0), &Stopped), Err(Cancelled));
+}
+
+#[cfg(not(target_arch = "wasm32"))]
+proptest::proptest! {
+    /// Any set of cells, and any part of the boundary: a pillow is refused, or leaves a conforming manifold.
+    #[test]
+    fn pillows_are_conforming_or_refused(
+        chosen in proptest::collection::vec(0u32..54, 1..6),
+        is_complement in proptest::bool::ANY,
+        is_sheet in proptest::bool::ANY,
+    ) {
+        let mut mesh = voxels(&cubes(3, |_| true));
+        let mut on = told(&mesh, side_of_box);
+        let before = (mesh.clone(), on.clone());
+        let mut boundary = Boundary::of(&mesh, &on);
+        let count = if is_sheet { 54 } else { 27 };
+        let chosen: Vec<u32> =
+            (0..count).filter(|i| chosen.iter().any(|c| c % count == *i) != is_complement).collect();
+        let set = if is_sheet { ShrinkSet::Sheet(&chosen) } else { ShrinkSet::Hexes(&chosen) };
+        match pillow(&mut mesh, &mut on, &mut boundary, &set) {
+            Err(torn) => proptest::prop_assert!(!torn.0.is_empty() && (&mesh, &on) == (&before.0, &before.1)),
+            Ok(layer) => {
+                on.faces = boundary.in_order();
+                proptest::prop_assert_eq!(euler(&mesh), 1);
+                assert_true(&mesh, &on);
+                layer.take_back(&mut mesh, &mut on);
+                proptest::prop_assert_eq!((mesh, on), before);
+            }
+        }
+    }
+}
