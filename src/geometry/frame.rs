@@ -44,6 +44,11 @@ impl Frame {
         self.local_from_world.transpose().abs() * half
     }
 
+    /// Its axes, as columns.
+    pub fn axes(&self) -> DMat3 {
+        self.local_from_world.transpose()
+    }
+
     /// The origin.
     pub fn origin(&self) -> Point {
         self.origin

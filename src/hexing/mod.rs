@@ -10,3 +10,13 @@ pub mod correspondence;
 pub mod direction;
 pub mod fit;
 pub mod sheets;
+
+mod attempt;
+mod groups;
+mod options;
+mod pipeline;
+mod separate;
+
+pub use attempt::{AttemptReport, Captured, FeatureReport, FitCounts, LostFeature, SheetCounts};
+pub use options::{HexingError, HexingOptions};
+pub use pipeline::{HexedSolid, HexingReport, hex_solid};

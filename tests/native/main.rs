@@ -5,6 +5,7 @@ mod cli;
 mod formats;
 mod hashes;
 mod hexes;
+mod hexing;
 mod obj;
 mod optimize;
 mod refine;

@@ -3,6 +3,7 @@
 mod check;
 mod convert;
 mod grid;
+mod hex;
 mod interrupt;
 mod refine;
 mod refusals;

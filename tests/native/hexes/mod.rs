@@ -6,7 +6,7 @@ mod counts;
 mod groups;
 mod judge;
 mod levels;
-mod meshes;
+pub(crate) mod meshes;
 mod octants;
 mod pipeline;
 mod sets;

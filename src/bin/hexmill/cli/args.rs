@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use hexmill::hexing::HexingOptions;
 use hexmill::refine::QuadOptions;
 use hexmill::refine::hex::{HexOptions, Method};
 
 use super::region::RegionArg;
 
-/// Conforming quad and hex meshes, refined where they are wanted finer.
+/// Conforming quad and hex meshes of surfaces and solids, refined where they are wanted finer.
 ///
 /// The format of a file is told by its extension: obj, vtu, vtk, msh, inp, mesh (MEDIT), glb (output only).
 ///
@@ -32,6 +33,9 @@ pub(crate) enum Command {
     /// Refine a surface to a conforming quad mesh, or a hex mesh to a conforming hex mesh
     #[command(after_long_help = REFINE_EXAMPLES)]
     Refine(RefineArgs),
+    /// Mesh the solid that a closed surface bounds with hexes
+    #[command(after_long_help = HEX_EXAMPLES)]
+    Hex(HexArgs),
     /// Say what is wrong with a mesh, and how good it is
     #[command(after_long_help = CHECK_EXAMPLES)]
     Check(CheckArgs),
@@ -80,6 +84,14 @@ deep; the input is level 0):
   cylinder:ax,ay,az,bx,by,bz,r       capped, from a to b
   points:FILE,r                      within r of a node of FILE
   surface:FILE,d                     within d of a face of FILE";
+
+const HEX_EXAMPLES: &str = "\
+Examples:
+  Edges of about 2 model units, for ParaView:
+    hexmill hex part.obj -o part.vtu --edge-length 2
+
+  Surfaces meet where faces turn by more than 20 degrees; a record of what came of each feature:
+    hexmill hex part.obj -o part.msh -e 2 --feature-angle 20 --report part.json";
 
 const CHECK_EXAMPLES: &str = "\
 Exit code 1 if the mesh is not conforming (repeated or hanging nodes, faces twice, ...). Open borders,
@@ -152,6 +164,38 @@ pub(crate) struct RefineArgs {
 
     /// Refuse to make more hexes than this [default: 16000000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexOptions::MOST_HEXES))]
+    pub(crate) max_hexes: Option<u64>,
+
+    /// Threads to use [default: one a core]; the result does not depend on it
+    #[arg(long, short = 'j', value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+
+    /// Where to write a record of the work as JSON (see docs/report.md)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+}
+
+/// `hexmill hex`.
+#[derive(Args, Debug)]
+pub(crate) struct HexArgs {
+    /// The closed surface of the solid, or of several
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Where to write the mesh
+    #[arg(long, short, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+
+    /// How long edges are to be, in model units
+    #[arg(long, short = 'e', value_name = "L", value_parser = positive)]
+    pub(crate) edge_length: f64,
+
+    /// Faces that meet at more than this are parts of different surfaces, in degrees
+    #[arg(long, value_name = "DEG", value_parser = angle, default_value_t = 35.0)]
+    pub(crate) feature_angle: f64,
+
+    /// Refuse to make a background of more hexes than this [default: 4000000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexingOptions::MOST_HEXES))]
     pub(crate) max_hexes: Option<u64>,
 
     /// Threads to use [default: one a core]; the result does not depend on it

@@ -3,9 +3,11 @@
 mod args;
 mod check;
 mod convert;
+mod deliver;
 mod failure;
 mod files;
 mod grid;
+mod hex;
 mod mesh_report;
 mod progress;
 mod refine;
@@ -13,6 +15,7 @@ mod refine_hexes;
 mod refine_surface;
 mod region;
 mod report;
+mod threads;
 
 use std::process::ExitCode;
 
@@ -26,6 +29,7 @@ pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let done = match cli.command {
         Command::Refine(args) => refine::run(&args, cli.quiet),
+        Command::Hex(args) => hex::run(&args, cli.quiet),
         Command::Check(args) => check::run(&args, cli.quiet),
         Command::Convert(args) => convert::run(&args, cli.quiet),
         Command::Grid(args) => grid::run(&args, cli.quiet),

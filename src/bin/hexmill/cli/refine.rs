@@ -2,16 +2,18 @@
 
 use std::path::Path;
 
-use hexmill::io::{self, AnyMesh, Document};
+use hexmill::io::{AnyMesh, Document};
 use hexmill::mesh::PolygonMesh;
 use hexmill::refine::QuadOptions;
 
 use super::args::RefineArgs;
+use super::deliver::Delivery;
 use super::failure::Failure;
-use super::files::{check_outputs, format_of, load, save};
-use super::mesh_report::{Counts, MeshReport, quality_table};
+use super::files::{check_outputs, format_of, load};
+use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
-use super::report::{FileReport, HexRefinementReport, InputReport, OptionsReport, Report, peak_memory_bytes};
+use super::report::{HexRefinementReport, OptionsReport, Report, peak_memory_bytes};
+use super::threads::use_threads;
 use super::{refine_hexes, refine_surface};
 
 /// What a refinement made, and of what.
@@ -44,19 +46,17 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     };
     let Refined { before, document, capped, options, work } = refined?;
 
-    let bytes = progress
-        .stage("encode", || io::write(&document, format))
-        .map_err(|e| Failure::write(&args.output, &e))?;
-    progress.stage("write", || save(&args.output, &bytes))?;
-    let output = FileReport::new(&args.output, format, bytes.len() as u64);
-    drop(bytes);
-
-    let mut mesh = progress.stage("measure", || MeshReport::of(&document, capped));
-    if args.report.is_some() {
-        progress.stage("check", || mesh.check(&document.mesh));
-    }
-    let mut report = Report::new("refine", InputReport::new(&loaded, before), mesh);
-    (report.options, report.refinement, report.output) = (Some(options), work, Some(output));
+    let delivery = Delivery {
+        command: "refine",
+        input: (&loaded, before),
+        document: &document,
+        capped,
+        output: &args.output,
+        format,
+        is_checked: args.report.is_some(),
+    };
+    let mut report = delivery.write(&progress)?;
+    (report.options, report.refinement) = (Some(options), work);
     (report.stages, report.seconds) = progress.finish();
     report.peak_memory_bytes = peak_memory_bytes();
     if !quiet {
@@ -83,17 +83,6 @@ fn check_levels(args: &RefineArgs) -> Result<(), Failure> {
             "--levels is {levels}, but --max-levels {most}; give fewer levels, or raise --max-levels"
         ))),
     }
-}
-
-/// Makes the library's work run on `threads` threads.
-fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
-    let Some(threads) = threads else { return Ok(()) };
-    rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|error| {
-        Failure::refused(
-            "threads-not-started",
-            format!("{threads} threads cannot be started: {error}; give fewer"),
-        )
-    })
 }
 
 /// What was made, for people.

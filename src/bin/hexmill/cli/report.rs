@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hexmill::hexing::HexingReport;
 use hexmill::io::Format;
 use hexmill::mesh::Distances;
 use hexmill::refine::hex::{Added, HexForecast, Method, StageReport};
@@ -28,6 +29,9 @@ pub(crate) struct Report {
     /// Of a refinement of hexes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) refinement: Option<HexRefinementReport>,
+    /// Of the meshing of a solid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) hexing: Option<HexingReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) output: Option<FileReport>,
     pub(crate) mesh: MeshReport,
@@ -49,6 +53,7 @@ impl Report {
             input,
             options: None,
             refinement: None,
+            hexing: None,
             output: None,
             mesh,
             distance: None,

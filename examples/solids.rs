@@ -1,0 +1,113 @@
+//! Meshes solids, and prints a table of how well and how fast.
+//!
+//! `cargo run --release --example solids -- FOLDER [CELLS] [NAME...]` meshes every OBJ file of FOLDER, or those whose
+//! names hold a NAME, with edges of 1/CELLS (48) of the longest side on one thread. `-- parts [COUNT] [CELLS]` does so
+//! with COUNT (200) random parts at a coarse edge length (CELLS is 12), and fails if one is not meshed.
+
+#[path = "../tests/native/hexing/csg.rs"]
+mod csg;
+#[path = "../tests/native/hexes/meshes.rs"]
+#[allow(dead_code)]
+mod meshes;
+
+use std::error::Error;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use hexmill::Silent;
+use hexmill::hexing::{HexingOptions, hex_solid};
+use hexmill::io::{Format, read};
+use hexmill::mesh::{PolygonMesh, check_hexes};
+
+/// The command line's allocator. `wasm-pack test` builds every example for the web, where there is none.
+#[cfg(not(target_arch = "wasm32"))]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
+type Failure = Box<dyn Error + Send + Sync>;
+
+fn main() -> Result<(), Failure> {
+    let mut arguments = std::env::args().skip(1);
+    let source = arguments.next().ok_or("wanted: FOLDER [CELLS] [NAME...], or parts [COUNT] [CELLS]")?;
+    let rest: Vec<String> = arguments.collect();
+    let number = |k: usize, default: f64| rest.get(k).map_or(Ok(default), |text| text.parse::<f64>());
+    let mut table = Table::new()?;
+    if source == "parts" {
+        let cells = number(1, 12.0)?;
+        for seed in 0..number(0, 200.0)? as u64 {
+            table.row(&format!("part {seed}"), cells, || Ok(csg::random_part(seed)));
+        }
+    } else {
+        let cells = number(0, 48.0)?;
+        for file in files(&source, rest.get(1..).unwrap_or_default())? {
+            let load =
+                || read(&std::fs::read(&file)?, Format::Obj)?.into_surface().ok_or("no surface".into());
+            table.row(&file.file_stem().unwrap_or_default().to_string_lossy(), cells, load);
+        }
+    }
+    if table.failed > 0 { Err(format!("{} solids failed", table.failed).into()) } else { Ok(()) }
+}
+
+/// The OBJ files of a folder, or those whose names hold one of `names`.
+fn files(folder: &str, names: &[String]) -> Result<Vec<PathBuf>, Failure> {
+    let entries = std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
+    let mut files: Vec<PathBuf> = entries.collect::<Result<_, std::io::Error>>()?;
+    files.retain(|path| {
+        let name = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+        let is_named = names.is_empty() || names.iter().any(|part| name.contains(part.as_str()));
+        path.extension().is_some_and(|extension| extension == "obj") && is_named
+    });
+    files.sort();
+    Ok(files)
+}
+
+/// Prints a row for each solid.
+struct Table {
+    pool: rayon::ThreadPool,
+    failed: usize,
+}
+
+impl Table {
+    fn new() -> Result<Self, Failure> {
+        println!(
+            "| solid | hexes | worst | mean | distance, % | Euler | curves | surfaces | tries | seconds |"
+        );
+        println!("|---|---|---|---|---|---|---|---|---|---|");
+        Ok(Self { pool: rayon::ThreadPoolBuilder::new().num_threads(1).build()?, failed: 0 })
+    }
+
+    fn row(&mut self, name: &str, cells: f64, load: impl FnOnce() -> Result<PolygonMesh, Failure> + Send) {
+        match self.pool.install(|| load().and_then(|surface| cells_of_row(&surface, cells))) {
+            Ok(cells) => println!("| {name} | {} |", cells.join(" | ")),
+            Err(error) => {
+                println!("| {name} | {error} |");
+                self.failed += 1;
+            }
+        }
+    }
+}
+
+fn cells_of_row(surface: &PolygonMesh, cells: f64) -> Result<Vec<String>, Failure> {
+    let bounds = surface.bounds();
+    let edge_length = (bounds.max - bounds.min).max_element() / cells;
+    let options = HexingOptions { edge_length, ..HexingOptions::default() };
+    let start = Instant::now();
+    let hexed = hex_solid(surface, &options, &Silent)?;
+    let seconds = start.elapsed().as_secs_f64();
+    if let Some(defect) = check_hexes(&hexed.mesh).first() {
+        return Err(defect.to_string().into());
+    }
+    let made = hexed.report.result();
+    let (curves, surfaces) = (made.features.curves, made.features.surfaces);
+    Ok(vec![
+        made.hexes.to_string(),
+        format!("{:.3}", made.worst),
+        format!("{:.3}", made.mean),
+        format!("{:.3}", 100.0 * made.distance.hausdorff() / (bounds.max - bounds.min).length()),
+        format!("{} of {}", made.core.euler, made.core.solid_euler),
+        format!("{} of {}", curves.captured, curves.found),
+        format!("{} of {}", surfaces.captured, surfaces.found),
+        hexed.report.attempts.len().to_string(),
+        format!("{seconds:.1}"),
+    ])
+}

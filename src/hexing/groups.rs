@@ -1,0 +1,30 @@
+//! The surfaces of the solid as groups of the mesh's boundary faces: where loads and supports go.
+
+use std::collections::BTreeMap;
+
+use crate::mesh::topology::HexFaces;
+use crate::mesh::{BoundaryGroups, HexMesh, NodeId, TagSet, Tags};
+use crate::solid::SurfaceId;
+
+/// A group for each surface, named `surface-1` for the first. `faces` are all boundary faces of the mesh, in the order of
+/// [`hex_boundary`](crate::mesh::topology::hex_boundary), with the surface that each stands for.
+pub(super) fn groups_of(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> BoundaryGroups {
+    let of_hexes = HexFaces::of(mesh.positions.len(), &mesh.hexes);
+    let boundary = of_hexes.ids().filter(|&face| of_hexes.is_boundary(face));
+    let mut sides: Vec<(u32, SurfaceId)> =
+        boundary.zip(faces).map(|(face, &(_, surface))| (of_hexes.sides(face)[0], surface)).collect();
+    sides.sort_unstable();
+    let mut set_of = BTreeMap::new();
+    let mut sets = Vec::new();
+    let of_element = sides.iter().map(|&(_, surface)| {
+        *set_of.entry(surface).or_insert_with(|| {
+            let number = surface.0 + 1;
+            let groups = vec![format!("surface-{number}")];
+            sets.push(TagSet { groups, number: i32::try_from(number).ok(), ..TagSet::default() });
+            sets.len() as u32 - 1
+        })
+    });
+    let of_element = of_element.collect();
+    let sides = sides.iter().map(|&(side, _)| side).collect();
+    BoundaryGroups::new(sides, Tags { sets, of_element }).expect("sides are ascending, each with its set")
+}

@@ -1,0 +1,136 @@
+//! Boundary nodes that came to lie on other parts of the boundary are drawn in.
+//!
+//! Where two parts of the mesh's boundary stand for one part of the solid's, as when a slot between them was too narrow
+//! for a cell, the fit lays them on each other: the mesh would look as if it hung together there. Validity comes before
+//! fidelity, so that the boundary yields.
+
+use crate::geometry::{Aabb, BoxIndex, Point};
+use crate::mesh::quality::{Certainty, is_positive, scaled_jacobian};
+use crate::mesh::topology::{Bins, hex_boundary};
+use crate::mesh::{Defect, HexMesh, NodeId, check_hexes_within};
+use crate::{Cancelled, Monitor, parallel};
+
+/// How far a node is drawn in at a time, as a share of the way to the middle of its hexes.
+const STEP: f64 = 0.1;
+
+/// Halvings of a step after which a node stays where it is.
+const HALVINGS: usize = 6;
+
+/// Rounds of looking and moving.
+const ROUNDS: usize = 8;
+
+/// No cell becomes worse than this share of what its nodes had at worst.
+const KEPT: f64 = 0.5;
+
+/// Two nodes nearer than this share of the mesh's size are one to whoever reads the file.
+const SAME: f64 = 1e-9;
+
+/// Draws in what lies on other parts of the boundary. Returns how many nodes were moved.
+///
+/// # Errors
+/// [`Cancelled`] when the monitor says so.
+pub(super) fn separate(mesh: &mut HexMesh, monitor: &dyn Monitor) -> Result<usize, Cancelled> {
+    let mut moved = vec![false; mesh.positions.len()];
+    let mut hexes_at: Option<Bins> = None;
+    for _ in 0..ROUNDS {
+        let mut nodes = coincident(mesh);
+        nodes.extend(check_hexes_within(mesh, monitor)?.iter().filter_map(hanging));
+        nodes.sort_unstable();
+        nodes.dedup();
+        if nodes.is_empty() {
+            break;
+        }
+        let corners = mesh.hexes.as_flattened();
+        let at = hexes_at
+            .get_or_insert_with(|| Bins::of(mesh.positions.len(), corners.len(), |k| corners[k].index()));
+        for node in nodes {
+            let hexes: Vec<usize> = at.at(node.index()).iter().map(|&k| k as usize / 8).collect();
+            moved[node.index()] |= draw_in(mesh, node, &hexes);
+        }
+    }
+    Ok(moved.into_iter().filter(|&moved| moved).count())
+}
+
+/// The node that lies where it does not belong.
+fn hanging(defect: &Defect) -> Option<NodeId> {
+    match defect {
+        Defect::HangingNode { node, .. } | Defect::HangingNodeInFace { node, .. } => Some(*node),
+        _ => None,
+    }
+}
+
+/// Nodes of the boundary that stand where another does, of which the first stays.
+fn coincident(mesh: &HexMesh) -> Vec<NodeId> {
+    let mut nodes: Vec<NodeId> = hex_boundary(&mesh.hexes).into_iter().flat_map(|(quad, _)| quad).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let at = |n: NodeId| mesh.positions[n.index()];
+    let bounds = mesh.bounds();
+    let near = Point::splat(SAME * (bounds.max - bounds.min).max_element());
+    let index = BoxIndex::of_points(nodes.iter().map(|&n| &mesh.positions[n.index()]));
+    let is_second = |k: usize| {
+        let around = Aabb { min: at(nodes[k]) - near, max: at(nodes[k]) + near };
+        index.touching(&around).any(|other| other < k)
+    };
+    parallel::filter(nodes.len(), is_second).into_iter().map(|k| nodes[k as usize]).collect()
+}
+
+/// Moves a node towards the middle of its hexes, as far as these bear it. Returns whether it could be moved.
+fn draw_in(mesh: &mut HexMesh, node: NodeId, hexes: &[usize]) -> bool {
+    let corners = |mesh: &HexMesh, h: usize| mesh.hexes[h].map(|n| mesh.positions[n.index()]);
+    let middle = |h: usize| corners(mesh, h).iter().sum::<Point>() / 8.0;
+    let target = hexes.iter().map(|&h| middle(h)).sum::<Point>() / hexes.len() as f64;
+    let worst = |mesh: &HexMesh| {
+        hexes.iter().map(|&h| scaled_jacobian(&corners(mesh, h))).fold(f64::INFINITY, f64::min)
+    };
+    let (before, least) = (mesh.positions[node.index()], KEPT * worst(mesh));
+    let mut step = STEP;
+    for _ in 0..HALVINGS {
+        mesh.positions[node.index()] = before.lerp(target, step);
+        let is_sound = |&h: &usize| is_positive(&corners(mesh, h)) == Certainty::Positive;
+        if worst(mesh) >= least && hexes.iter().all(is_sound) {
+            return true;
+        }
+        step *= 0.5;
+    }
+    mesh.positions[node.index()] = before;
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Silent;
+    use crate::mesh::{GridOptions, check_hexes, hex_grid};
+
+    /// Two boxes of 2 x 2 x 2 cells, `gap` apart along x.
+    fn boxes(gap: f64) -> HexMesh {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 8 };
+        let mut mesh = hex_grid(Aabb { min: Point::ZERO, max: Point::splat(2.0) }, &options).unwrap();
+        let (nodes, hexes) = (mesh.positions.len(), mesh.hexes.len());
+        for n in 0..nodes {
+            mesh.positions.push(mesh.positions[n] + Point::new(2.0 + gap, 0.5, 0.25));
+        }
+        for h in 0..hexes {
+            mesh.hexes.push(mesh.hexes[h].map(|n| NodeId::new(n.index() + nodes)));
+        }
+        mesh
+    }
+
+    #[test]
+    fn what_touches_is_drawn_apart() {
+        let mut mesh = boxes(0.0);
+        assert!(check_hexes(&mesh).iter().any(|defect| hanging(defect).is_some()));
+        let moved = separate(&mut mesh, &Silent).unwrap();
+        assert!(moved > 0 && moved <= 18, "{moved}");
+        assert_eq!(check_hexes(&mesh), []);
+    }
+
+    #[test]
+    fn what_stands_apart_stays() {
+        let mut mesh = boxes(0.01);
+        let before = mesh.clone();
+        assert_eq!(separate(&mut mesh, &Silent), Ok(0));
+        assert_eq!(mesh, before);
+    }
+}

@@ -1,0 +1,6 @@
+//! All-hex meshes of solids, from the surface to the mesh.
+
+mod csg;
+mod parts;
+
+use crate::hexes::meshes;

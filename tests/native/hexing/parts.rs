@@ -1,0 +1,40 @@
+//! Random parts: whatever comes in, the mesh is valid.
+
+use hexmill::hexing::{HexedSolid, HexingOptions, hex_solid};
+use hexmill::mesh::quality::{Certainty, is_positive, scaled_jacobian};
+use hexmill::mesh::topology::{HexEdges, HexFaces, hex_report};
+use hexmill::mesh::{PolygonMesh, check_hexes};
+use hexmill::{Silent, geometry::Point};
+
+use super::csg::random_part;
+
+/// Meshes a part with edges of a share of its longest side.
+fn hexed(part: &PolygonMesh, share: f64) -> HexedSolid {
+    let bounds = part.bounds();
+    let edge_length = share * (bounds.max - bounds.min).max_element();
+    let options = HexingOptions { edge_length, ..HexingOptions::default() };
+    hex_solid(part, &options, &Silent).expect("a mesh")
+}
+
+/// Is the mesh conforming, a manifold, and positive everywhere?
+fn assert_sound(hexed: &HexedSolid, name: &str) {
+    let mesh = &hexed.mesh;
+    assert!(!mesh.hexes.is_empty(), "{name}");
+    assert_eq!(check_hexes(mesh), [], "{name}");
+    let (count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
+    let report = hex_report(mesh, &HexFaces::of(count, hexes), &HexEdges::of(count, hexes));
+    assert!(report.is_manifold(), "{name}");
+    for hex in hexes {
+        let corners: [Point; 8] = hex.map(|n| mesh.positions[n.index()]);
+        assert!(scaled_jacobian(&corners) > 0.0, "{name}");
+        assert!(is_positive(&corners) == Certainty::Positive, "{name}");
+    }
+}
+
+#[test]
+fn random_parts_at_a_coarse_edge_length() {
+    for seed in 0..6 {
+        let part = random_part(seed);
+        assert_sound(&hexed(&part, 0.125), &format!("part {seed}"));
+    }
+}
