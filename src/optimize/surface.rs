@@ -10,9 +10,13 @@ use std::collections::BTreeMap;
 use crate::geometry::{NearestTriangle, Point, area_vector, triangulate};
 use crate::mesh::topology::{Sets, disagrees, edge_ids};
 use crate::mesh::{EdgeId, Edges, Faces, topology::EdgeUses};
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// Unit vectors whose difference is below this are one direction: far above rounding, far below what shows.
 const SAME: f64 = 1e-9;
+
+/// Edges between two questions whether to stop.
+const SILENT: usize = 1 << 16;
 
 /// A surface in patches and curves.
 #[derive(Debug, Default)]
@@ -65,18 +69,26 @@ impl BoundarySurface {
     /// Patches of a surface; edges at which faces meet at more than `ridge_degrees` are curves, as are edges of any
     /// other number of faces than two. Node ids are in range, positions finite.
     pub fn new(surface: &impl Faces, ridge_degrees: f64) -> Self {
-        Self::of_groups(surface, ridge_degrees, |_| 0)
+        Self::of_groups(surface, ridge_degrees, |_| 0, &Silent).expect("nobody stops it")
     }
 
     /// The same, with curves also between faces of different groups, which `label` tells.
-    pub fn of_groups(surface: &impl Faces, ridge_degrees: f64, label: impl Fn(usize) -> u32) -> Self {
-        let edges = Edges::of(surface);
-        let uses = EdgeUses::of(&edges);
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn of_groups(
+        surface: &impl Faces,
+        ridge_degrees: f64,
+        label: impl Fn(usize) -> u32,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let edges = Edges::monitored(surface, monitor)?;
+        let uses = EdgeUses::monitored(&edges, monitor)?;
         let positions = surface.positions();
         let corners =
             |f: usize| -> Vec<Point> { surface.nodes_of(f).iter().map(|n| positions[n.index()]).collect() };
-        let normals: Vec<Point> =
-            (0..surface.face_count()).map(|f| area_vector(&corners(f)).normalize_or_zero()).collect();
+        let normal = |f: usize| area_vector(&corners(f)).normalize_or_zero();
+        let normals: Vec<Point> = parallel::try_collect(surface.face_count(), monitor, normal)?;
         let ridge_cosine = libm::cos(ridge_degrees.to_radians());
         let faces_at = |e: EdgeId| uses.at(e).iter().map(|&k| surface.face_of(k as usize));
         let is_smooth = |e: EdgeId| {
@@ -88,7 +100,10 @@ impl BoundarySurface {
         };
         let mut sets = Sets::new(surface.face_count());
         let mut ridges = Vec::new();
-        for e in edge_ids(&edges) {
+        for (k, e) in edge_ids(&edges).enumerate() {
+            if k % SILENT == 0 {
+                monitor.proceed()?;
+            }
             if is_smooth(e) {
                 let faces: Vec<usize> = faces_at(e).collect();
                 sets.join(faces[0] as u32, faces[1] as u32, false);
@@ -97,7 +112,9 @@ impl BoundarySurface {
             }
         }
         let patch_of_face = sets.numbers();
+        monitor.proceed()?;
         let (triangles, patch_of_triangle) = triangles(surface, &patch_of_face);
+        monitor.proceed()?;
         let patch_count = patch_of_face.iter().max().map_or(0, |&p| p as usize + 1);
         let mut patches_with: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for (f, &patch) in patch_of_face.iter().enumerate() {
@@ -115,16 +132,15 @@ impl BoundarySurface {
             let [a, b] = edges.ends[e.index()].map(|n| positions[n.index()]);
             by_pair.entry(pair(faces_at(e).map(|f| patch_of_face[f]))).or_default().push([a, b, b]);
         }
-        Self {
-            patches: by_patch.into_iter().map(|t| Piece::new(t, unit_normal)).collect(),
-            patches_with,
-            curve_between: by_pair.keys().copied().zip(0..).collect(),
-            curves: by_pair
-                .into_values()
-                .map(|t| Piece::new(t, |t| (t[1] - t[0]).normalize_or_zero()))
-                .collect(),
-            triangles: Some((NearestTriangle::new(triangles), patch_of_triangle)),
-        }
+        let curve_between = by_pair.keys().copied().zip(0..).collect();
+        let along = |t: &[Point; 3]| (t[1] - t[0]).normalize_or_zero();
+        let told = |piece| monitor.proceed().map(|()| piece);
+        let patches = by_patch.into_iter().map(|t| told(Piece::new(t, unit_normal)));
+        let patches = patches.collect::<Result<Vec<Piece>, _>>()?;
+        let curves = by_pair.into_values().map(|t| told(Piece::new(t, along)));
+        let curves = curves.collect::<Result<Vec<Piece>, _>>()?;
+        let triangles = Some((NearestTriangle::new(triangles), patch_of_triangle));
+        Ok(Self { patches, curves, patches_with, curve_between, triangles })
     }
 
     /// The patch nearest to `p`; `None` if the surface has no faces.

@@ -6,13 +6,14 @@ use super::Defect;
 use crate::geometry::{Aabb, Point};
 use crate::mesh::topology::{Edges, used_nodes};
 use crate::mesh::{Faces, HexId, NodeId};
-use crate::parallel;
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// Every node that lies inside an edge of which it is no end, among all edges: on a surface that passes,
 /// no cracks hide where several sheets meet either. Costs several times what a check costs, which looks
 /// at the edges of one face alone.
 pub fn hanging_nodes(mesh: &impl Faces) -> Vec<Defect> {
-    inside(mesh.positions(), &used_nodes(mesh), Edges::of(mesh).ends)
+    let found = inside(mesh.positions(), &used_nodes(mesh), Edges::of(mesh).ends, &Silent);
+    found.expect("nobody stops it")
 }
 
 /// A node counts as inside an edge if it is nearer to the edge than this share of its length, and
@@ -20,17 +21,22 @@ pub fn hanging_nodes(mesh: &impl Faces) -> Vec<Defect> {
 const NEAR: f64 = 1e-6;
 
 /// The `used` nodes that lie inside one of `edges`, in order of nodes, then of edges.
-pub(super) fn inside(positions: &[Point], used: &[bool], edges: Vec<[NodeId; 2]>) -> Vec<Defect> {
-    if edges.is_empty() {
-        return Vec::new();
-    }
-    let tree = RTree::bulk_load(edges.into_iter().map(|ends| Segment::new(positions, ends)).collect());
-    parallel::gather(positions.len(), |n, found| {
+///
+/// # Errors
+/// If the monitor stops it.
+pub(super) fn inside(
+    positions: &[Point],
+    used: &[bool],
+    edges: Vec<[NodeId; 2]>,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Defect>, Cancelled> {
+    let trees = Trees::of(edges.into_iter().map(|ends| Segment::new(positions, ends)), monitor)?;
+    parallel::try_gather(positions.len(), monitor, |n, found| {
         if !used[n] {
             return;
         }
         let node = NodeId::new(n);
-        let near = tree.locate_in_envelope_intersecting(AABB::from_point(positions[n].to_array()));
+        let near = trees.at(positions[n]);
         let mut edges: Vec<_> = near.filter(|s| s.holds(positions, node)).map(|s| s.ends).collect();
         edges.sort_unstable();
         found.extend(edges.into_iter().map(|edge| Defect::HangingNode { node, edge }));
@@ -38,26 +44,54 @@ pub(super) fn inside(positions: &[Point], used: &[bool], edges: Vec<[NodeId; 2]>
 }
 
 /// The `used` nodes that lie inside one of `faces` of hexes, in order of nodes, then of hexes.
+///
+/// # Errors
+/// If the monitor stops it.
 pub(super) fn inside_faces(
     positions: &[Point],
     used: &[bool],
     faces: Vec<(HexId, [NodeId; 4])>,
-) -> Vec<Defect> {
-    if faces.is_empty() {
-        return Vec::new();
-    }
+    monitor: &dyn Monitor,
+) -> Result<Vec<Defect>, Cancelled> {
     let patches = faces.into_iter().map(|(hex, nodes)| Patch::new(positions, hex, nodes));
-    let tree = RTree::bulk_load(patches.collect());
-    parallel::gather(positions.len(), |n, found| {
+    let trees = Trees::of(patches, monitor)?;
+    parallel::try_gather(positions.len(), monitor, |n, found| {
         if !used[n] {
             return;
         }
         let node = NodeId::new(n);
-        let near = tree.locate_in_envelope_intersecting(AABB::from_point(positions[n].to_array()));
+        let near = trees.at(positions[n]);
         let mut faces: Vec<_> = near.filter(|f| f.holds(positions, node)).map(|f| (f.hex, f.nodes)).collect();
         faces.sort_unstable();
         found.extend(faces.into_iter().map(|(hex, face)| Defect::HangingNodeInFace { node, face, hex }));
     })
+}
+
+/// Search trees over objects, each over so few that it is soon packed. Objects that follow each other are usually near to
+/// each other, so that few of the trees are looked into.
+struct Trees<T: RTreeObject>(Vec<RTree<T>>);
+
+/// Objects of a tree.
+const PACKED: usize = 1 << 15;
+
+impl<T: RTreeObject<Envelope = AABB<[f64; 3]>>> Trees<T> {
+    fn of(mut objects: impl Iterator<Item = T>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let mut trees = Vec::new();
+        loop {
+            let few: Vec<T> = objects.by_ref().take(PACKED).collect();
+            if few.is_empty() {
+                return Ok(Self(trees));
+            }
+            trees.push(RTree::bulk_load(few));
+            monitor.proceed()?;
+        }
+    }
+
+    /// The objects whose boxes hold `p`.
+    fn at(&self, p: Point) -> impl Iterator<Item = &T> {
+        let p = AABB::from_point(p.to_array());
+        self.0.iter().flat_map(move |tree| tree.locate_in_envelope_intersecting(p))
+    }
 }
 
 /// A bilinear face.

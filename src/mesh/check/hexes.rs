@@ -55,7 +55,7 @@ pub fn check_hexes_within(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Vec<D
     defects.extend(mesh.groups.sides().iter().filter_map(|&side| group_defect(&faces, side)));
     defects.extend(edge_defects(&faces, &edges, monitor)?);
     monitor.proceed()?;
-    let links = Links::of(mesh, &faces, &edges);
+    let links = Links::within(mesh, &faces, &edges, monitor)?;
     let unused = (0..node_count).filter(|&n| !links.is_used(n));
     defects.extend(unused.map(|n| Defect::UnusedNode { node: NodeId::new(n) }));
     let odd = |(node, euler): (NodeId, i32)| {
@@ -72,9 +72,8 @@ pub fn check_hexes_within(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Vec<D
         sides.sort_unstable();
         sides.dedup();
         monitor.proceed()?;
-        defects.extend(hanging::inside(&mesh.positions, &links.on_boundary, sides));
-        monitor.proceed()?;
-        defects.extend(hanging::inside_faces(&mesh.positions, &links.on_boundary, open));
+        defects.extend(hanging::inside(&mesh.positions, &links.on_boundary, sides, monitor)?);
+        defects.extend(hanging::inside_faces(&mesh.positions, &links.on_boundary, open, monitor)?);
     }
     Ok(defects)
 }

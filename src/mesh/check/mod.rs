@@ -27,7 +27,7 @@ use super::topology::{EdgeUses, Edges, disagrees, edge_ids, non_manifold_nodes, 
 use super::{EdgeId, FaceId, Faces, NodeId, PolygonMesh, QuadMesh};
 use crate::geometry::Point;
 use crate::parallel;
-use crate::{Cancelled, Monitor};
+use crate::{Cancelled, Monitor, Silent};
 
 /// Everything wrong with a quad mesh; empty for a conforming, oriented manifold without loose nodes.
 pub fn check_quads(mesh: &QuadMesh) -> Vec<Defect> {
@@ -98,7 +98,8 @@ fn check(mesh: &impl Faces) -> Vec<Defect> {
     defects.extend(pinched.into_iter().map(|(node, n)| Defect::NonManifoldNode { node, fans: n as u32 }));
     if all_finite {
         let open = edge_ids(&edges).filter(|&e| uses.count(e) == 1).map(|e| edges.ends[e.index()]);
-        defects.extend(hanging::inside(mesh.positions(), &used, open.collect()));
+        let found = hanging::inside(mesh.positions(), &used, open.collect(), &Silent);
+        defects.extend(found.expect("nobody stops it"));
     }
     defects
 }

@@ -5,7 +5,8 @@ use serde::Serialize;
 use super::{Bins, HexEdges, HexFaces, Sets};
 use crate::mesh::numbering::hex::FACES_AT_EDGE;
 use crate::mesh::{EdgeId, FaceId, HexMesh, NodeId};
-use crate::parallel;
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// What kind of solid a hex mesh is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -108,17 +109,33 @@ pub(crate) struct Links {
 impl Links {
     /// Counts edges, faces and hexes at each node.
     pub fn of(mesh: &HexMesh, faces: &HexFaces, edges: &HexEdges) -> Self {
+        Self::within(mesh, faces, edges, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`Links::of`], unless the monitor stops it.
+    pub fn within(
+        mesh: &HexMesh,
+        faces: &HexFaces,
+        edges: &HexEdges,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let count = mesh.positions.len();
         let (mut hexes, mut euler, mut on_boundary) = (vec![0; count], vec![0; count], vec![false; count]);
-        let mut add = |nodes: &[NodeId], by: i32| nodes.iter().for_each(|n| euler[n.index()] += by);
-        add(edges.ends.as_flattened(), 1);
-        add(faces.nodes.as_flattened(), -1);
-        add(mesh.hexes.as_flattened(), 1);
-        mesh.hexes.as_flattened().iter().for_each(|n| hexes[n.index()] += 1);
-        for f in faces.ids().filter(|&f| faces.is_boundary(f)) {
-            faces.nodes[f.index()].iter().for_each(|n| on_boundary[n.index()] = true);
+        let of_hexes = mesh.hexes.as_flattened();
+        for (nodes, by) in [(edges.ends.as_flattened(), 1), (faces.nodes.as_flattened(), -1), (of_hexes, 1)] {
+            for batch in batches(nodes.len(), monitor) {
+                nodes[batch?].iter().for_each(|n| euler[n.index()] += by);
+            }
         }
-        Self { hexes, euler, on_boundary }
+        for batch in batches(of_hexes.len(), monitor) {
+            of_hexes[batch?].iter().for_each(|n| hexes[n.index()] += 1);
+        }
+        for batch in batches(faces.nodes.len(), monitor) {
+            for f in batch?.map(FaceId::new).filter(|&f| faces.is_boundary(f)) {
+                faces.nodes[f.index()].iter().for_each(|n| on_boundary[n.index()] = true);
+            }
+        }
+        Ok(Self { hexes, euler, on_boundary })
     }
 
     /// True if some hex uses node `n`.

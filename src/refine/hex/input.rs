@@ -1,6 +1,6 @@
 //! The input, checked and put right.
 
-use super::labels::{Label, label_of};
+use super::labels::{Label, NO_LABEL, label_of};
 use super::options::HexRefineError;
 use super::shift::RIDGE_DEGREES;
 use crate::mesh::check::{Defect, summary};
@@ -73,9 +73,6 @@ pub(super) fn boundary_surface(input: &HexMesh, monitor: &dyn Monitor) -> Result
     }
     drop(faces);
     let surface = QuadMesh { positions: input.positions.clone(), quads };
-    monitor.proceed()?;
-    if label.is_empty() {
-        return Ok(BoundarySurface::new(&surface, RIDGE_DEGREES));
-    }
-    Ok(BoundarySurface::of_groups(&surface, RIDGE_DEGREES, |f| label[f]))
+    let label = |f: usize| label.get(f).copied().unwrap_or(NO_LABEL);
+    BoundarySurface::of_groups(&surface, RIDGE_DEGREES, label, monitor)
 }

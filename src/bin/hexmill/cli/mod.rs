@@ -8,6 +8,7 @@ mod failure;
 mod files;
 mod grid;
 mod hex;
+mod memory;
 mod mesh_report;
 mod progress;
 mod refine;

@@ -1,10 +1,11 @@
 //! `hexmill refine` of a hex mesh.
 
 use hexmill::io::{AnyMesh, Document};
-use hexmill::refine::hex::{Added, HexOptions, HexPlan, HexRefineError};
+use hexmill::refine::hex::{Added, HexForecast, HexOptions, HexPlan, HexRefineError};
 
 use super::args::RefineArgs;
 use super::failure::Failure;
+use super::memory::Limit;
 use super::mesh_report::Counts;
 use super::progress::Progress;
 use super::refine::Refined;
@@ -19,9 +20,12 @@ pub(super) fn refine(
 ) -> Result<Refined, Failure> {
     let Document { mesh: AnyMesh::Hexes(mut mesh), tags, .. } = document else { unreachable!("hexes") };
     mesh.tags = tags;
-    let options = options(args)?;
+    let mut options = options(args)?;
+    let told = options_report(args, &options);
+    let limit = Limit::new(options.max_hexes, HexOptions::MOST_HEXES, HexForecast::BYTES_PER_HEX);
+    options.max_hexes = limit.cells;
     let before = Counts::of_hexes(&mesh);
-    let refused = |error: HexRefineError| refused(args, &error);
+    let refused = |error: HexRefineError| refused(args, &limit, &error);
     let plan = HexPlan::new(&mesh, &options, progress).map_err(refused)?;
     drop(mesh);
     if !quiet {
@@ -39,7 +43,7 @@ pub(super) fn refine(
         before,
         capped: refined.capped,
         document: Document::from(refined),
-        options: options_report(args, &options),
+        options: told,
         work: Some(work),
     })
 }
@@ -104,9 +108,12 @@ fn plan_in_words(plan: &HexPlan) -> String {
 }
 
 /// The mesh was not refined, or the options make no sense.
-fn refused(args: &RefineArgs, error: &HexRefineError) -> Failure {
-    match error {
-        HexRefineError::Option { .. } | HexRefineError::Sizing(_) => Failure::Usage(error.to_string()),
-        _ => Failure::refused(error.code(), format!("{}: {error}", args.input.display())),
-    }
+fn refused(args: &RefineArgs, limit: &Limit, error: &HexRefineError) -> Failure {
+    let file = args.input.display().to_string();
+    let special = match error {
+        HexRefineError::Option { .. } | HexRefineError::Sizing(_) => Some(Failure::Usage(error.to_string())),
+        HexRefineError::TooManyHexes { hexes, .. } => limit.exceeded(&file, *hexes, "hexes"),
+        _ => None,
+    };
+    special.unwrap_or_else(|| Failure::refused(error.code(), format!("{file}: {error}")))
 }

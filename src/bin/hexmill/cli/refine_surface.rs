@@ -1,10 +1,11 @@
 //! `hexmill refine` of a surface.
 
 use hexmill::io::Document;
-use hexmill::refine::{QuadOptions, refine_quads};
+use hexmill::refine::{Estimate, QuadOptions, RefineError, refine_quads};
 
 use super::args::RefineArgs;
 use super::failure::Failure;
+use super::memory::Limit;
 use super::mesh_report::Counts;
 use super::progress::Progress;
 use super::refine::Refined;
@@ -18,15 +19,30 @@ pub(super) fn refine(args: &RefineArgs, document: Document, progress: &Progress)
         return Err(Failure::Usage(message));
     }
     let surface = document.into_surface().expect("the document holds faces");
-    let options = options(args)?;
-    let refined = refine_quads(&surface, &options, progress).map_err(|e| Failure::refine(&args.input, &e))?;
+    let mut options = options(args)?;
+    let told = options_report(args, &options);
+    let limit = Limit::new(options.max_quads, QuadOptions::MOST_QUADS, Estimate::BYTES_PER_QUAD);
+    options.max_quads = limit.cells;
+    let refined =
+        refine_quads(&surface, &options, progress).map_err(|error| refused(args, &limit, &error))?;
     Ok(Refined {
         before: Counts::of_polygons(&surface),
         capped: refined.capped,
         document: Document::from(refined),
-        options: options_report(args, &options),
+        options: told,
         work: None,
     })
+}
+
+/// The surface was not refined, or the options make no sense.
+fn refused(args: &RefineArgs, limit: &Limit, error: &RefineError) -> Failure {
+    let for_memory = match error {
+        RefineError::TooManyQuads { quads, .. } => {
+            limit.exceeded(&args.input.display().to_string(), *quads, "quads")
+        }
+        _ => None,
+    };
+    for_memory.unwrap_or_else(|| Failure::refine(&args.input, error))
 }
 
 fn options(args: &RefineArgs) -> Result<QuadOptions, Failure> {

@@ -1,0 +1,89 @@
+//! The system's memory, held against a mesh before the work: without it the system would end the program, or stand still.
+
+use std::fs::read_to_string;
+
+use super::failure::Failure;
+
+/// A limit of cells: the caller's, or that of memory where this is lower.
+pub(super) struct Limit {
+    pub(super) cells: u64,
+    /// Bytes that are free, if they make the limit.
+    free: Option<u64>,
+    bytes_per_cell: u64,
+}
+
+impl Limit {
+    /// The limit where `asked` cells are allowed, of which each takes so many bytes at the peak of the work. More than
+    /// `most` is out of range, whatever memory there is, and stays, to be refused with the other options.
+    pub(super) fn new(asked: u64, most: u64, bytes_per_cell: u64) -> Self {
+        Self::within(asked, bytes_per_cell, if asked > most { None } else { free_memory() })
+    }
+
+    fn within(asked: u64, bytes_per_cell: u64, free: Option<u64>) -> Self {
+        let free = free.filter(|free| free / bytes_per_cell < asked);
+        Self { cells: free.map_or(asked, |free| free / bytes_per_cell), free, bytes_per_cell }
+    }
+
+    /// The refusal of so many `cells`, if it is memory that refuses them; `before` says of which file.
+    pub(super) fn exceeded(&self, before: &str, cells: u64, name: &str) -> Option<Failure> {
+        let free = self.free?;
+        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+        Some(Failure::refused(
+            "memory-exceeded",
+            format!(
+                "{before}: the mesh would have {cells} {name} or more and take {:.1} GB, of which {:.1} GB are free; \
+                 raise the edge length, ask for fewer levels or smaller regions, or free memory",
+                gigabytes(cells.saturating_mul(self.bytes_per_cell)),
+                gigabytes(free)
+            ),
+        ))
+    }
+}
+
+/// Bytes that programs can still have, with what can be swapped, where the system tells: Linux's `/proc/meminfo` and,
+/// within a container, the limit of its group (<https://docs.kernel.org/admin-guide/cgroup-v2.html>).
+fn free_memory() -> Option<u64> {
+    let of_system = free_in(&read_to_string("/proc/meminfo").ok()?)?;
+    let number =
+        |file: &str| read_to_string(format!("/sys/fs/cgroup/memory.{file}")).ok()?.trim().parse().ok();
+    let of_group =
+        number("max").zip(number("current")).map(|(most, now): (u64, u64)| most.saturating_sub(now));
+    Some(of_group.map_or(of_system, |of_group| of_system.min(of_group)))
+}
+
+fn free_in(meminfo: &str) -> Option<u64> {
+    let kibibytes = |name: &str| -> Option<u64> {
+        let line = meminfo.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':'))?;
+        line.trim().strip_suffix("kB")?.trim().parse().ok()
+    };
+    Some(1024 * (kibibytes("MemAvailable")? + kibibytes("SwapFree").unwrap_or(0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_system_tells_is_read() {
+        let told = "MemTotal:       4026156 kB\nMemFree:  7 kB\nMemAvailable:    2000 kB\nSwapFree:            500 kB\n";
+        assert_eq!(free_in(told), Some(2500 * 1024));
+        assert_eq!(free_in("MemTotal: 5 kB\n"), None);
+        assert_eq!(free_in("MemAvailable: five kB\n"), None);
+    }
+
+    #[test]
+    fn memory_limits_what_the_caller_allows() {
+        let limit = Limit::within(100, 330, Some(33_000 - 1));
+        assert_eq!(limit.cells, 99);
+        let message = limit.exceeded("a.vtu", 2_000_000, "hexes").expect("memory is short").to_string();
+        assert!(
+            message.starts_with("error[memory-exceeded]: a.vtu: the mesh would have 2000000 hexes"),
+            "{message}"
+        );
+        for free in [Some(33_000), None] {
+            let limit = Limit::within(100, 330, free);
+            assert_eq!(limit.cells, 100);
+            assert!(limit.exceeded("a.vtu", 101, "hexes").is_none());
+        }
+    }
+}
