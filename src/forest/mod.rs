@@ -28,4 +28,4 @@ pub use base::BaseError;
 pub use closure::{Admits, CloseError, Closure, admits_method_one};
 pub use octree::{HexForest, HexLevel, NodeKind};
 pub use quadtree::{Level, QuadForest};
-pub(crate) use quadtree::{UNDIVIDED, center, midpoint};
+pub(crate) use quadtree::{center, midpoint};

@@ -19,9 +19,8 @@
 //! inside it from its centre to the middles of its own; a split element has six edges inside it, from its centre to
 //! those of its faces, and twelve faces, one at the middle of each of its edges. Nothing is searched for or hashed.
 
-use super::UNDIVIDED;
 use super::heirs::inherit;
-use super::quadtree::{append, center, midpoint};
+use super::quadtree::{UNDIVIDED, append, center, midpoint};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES_OF_FACE, FACE_ACROSS, apart};
 use crate::mesh::{EdgeId, FaceId, HexId, NodeId};

@@ -8,11 +8,8 @@
 //!   r0---m0---r1        e_i joins r_i to r_{i+1}
 //! ```
 
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-
 use crate::geometry::Point;
 use crate::mesh::{EdgeId, FaceId, NodeId};
-use crate::monitor::batches;
 use crate::parallel;
 use crate::template::quad::{SPLIT, place};
 use crate::{Cancelled, Monitor};
@@ -29,8 +26,6 @@ pub struct Level {
     /// For each element that is refined, in the order in which they were: element `refined[k]` has the
     /// elements `4k..4k + 4` of the next level as its children.
     pub refined: Vec<u32>,
-    /// For each element: is it refined?
-    pub is_refined: Vec<bool>,
     /// The edges, as far as they were needed.
     pub(crate) edges: LevelEdges,
     /// The coarse face of each run of `1 << siblings` elements.
@@ -46,71 +41,111 @@ pub(crate) struct LevelEdges {
     pub of_element: Vec<[EdgeId; 4]>,
     /// The ends of each edge: its edge node, then the other.
     pub ends: Vec<[NodeId; 2]>,
-    /// The node that divides each edge, or [`UNDIVIDED`].
+    /// The node that divides each edge, or [`UNDIVIDED`]. Nothing divides edges that it is too short for.
     pub middle: Vec<NodeId>,
-    /// The edges that are divided by the split of an element, in the order in which they were.
+    /// The edges that are divided by the split of an element, in the order in which they were: ascending in runs.
     split: Vec<EdgeId>,
-    /// The first of each split edge's two halves, the one at its edge node, among the edges of the next level.
+    /// Where the runs of `split` end whose edges do not have their halves yet.
+    runs: Vec<usize>,
+    /// The first of each split edge's two halves, the one at its edge node, among the edges of the next level. It may
+    /// be too short for edges that have none.
     halves: Vec<EdgeId>,
     /// How many of `split` have their halves.
     halved: usize,
 }
 
 /// What stands in [`LevelEdges::middle`] for an edge that no node divides.
-pub(crate) const UNDIVIDED: NodeId = NodeId(u32::MAX);
+pub(super) const UNDIVIDED: NodeId = NodeId(u32::MAX);
 
 impl Level {
     /// The base level of a forest.
     pub(crate) fn base(elements: Vec<[NodeId; 4]>, roots: Vec<FaceId>, edges: LevelEdges) -> Self {
-        Self {
-            is_refined: vec![false; elements.len()],
-            elements,
-            roots,
-            siblings: 0,
-            edges,
-            refined: Vec::new(),
-        }
+        Self { elements, roots, siblings: 0, edges, refined: Vec::new() }
     }
 
     /// The coarse face that element `e` is part of.
     pub fn root(&self, e: usize) -> FaceId {
         self.roots[e >> self.siblings]
     }
+
+    /// True if every element is refined.
+    pub fn is_full(&self) -> bool {
+        self.refined.len() == self.elements.len()
+    }
+
+    /// For each element: is it refined?
+    pub fn are_refined(&self) -> Vec<bool> {
+        parallel::flags(self.elements.len(), self.refined.len(), |k| [self.refined[k] as usize])
+    }
 }
 
 impl LevelEdges {
     /// The edges of a base level.
     pub(crate) fn base(of_element: Vec<[EdgeId; 4]>, ends: Vec<[NodeId; 2]>) -> Self {
-        let (middle, halves) = (vec![UNDIVIDED; ends.len()], vec![EdgeId::default(); ends.len()]);
-        Self { of_element, ends, middle, halves, ..Self::default() }
+        Self { of_element, ends, ..Self::default() }
     }
 
     /// The edges of `marked` elements that nothing divides, in order.
     fn undivided_of(&self, marked: &[u32]) -> Vec<EdgeId> {
-        let is_undivided = |e: EdgeId| self.middle[e.index()] == UNDIVIDED;
-        let undivided_if = |is_wanted: &(dyn Fn(EdgeId) -> bool + Sync)| {
-            parallel::filter_map(self.ends.len(), |e| {
-                let edge = EdgeId(e as u32);
-                (is_wanted(edge) && is_undivided(edge)).then_some(edge)
-            })
-        };
-        if marked.len() == self.of_element.len() {
-            return undivided_if(&|_| true);
+        let every = marked.len() == self.of_element.len();
+        if every && self.split.is_empty() {
+            return parallel::collect(self.ends.len(), EdgeId::new);
         }
         let sides = |e: u32| self.of_element[e as usize];
         if marked.len() * FEW < self.of_element.len() {
             let all = marked.iter().flat_map(|&e| sides(e));
-            let mut undivided: Vec<EdgeId> = all.filter(|&e| is_undivided(e)).collect();
+            let mut undivided: Vec<EdgeId> = all.filter(|&e| self.is_undivided(e)).collect();
             parallel::sort(&mut undivided);
             undivided.dedup();
             return undivided;
         }
-        // Every thread sets flags to the same value, so that their order does not matter.
-        let is_side = parallel::collect(self.ends.len(), |_| AtomicBool::new(false));
-        parallel::for_each(marked.len(), |k| {
-            sides(marked[k]).iter().for_each(|side| is_side[side.index()].store(true, Relaxed));
-        });
-        undivided_if(&|e| is_side[e.index()].load(Relaxed))
+        let is_side = parallel::flags(self.ends.len(), marked.len(), |k| sides(marked[k]).map(EdgeId::index));
+        parallel::filter_map(self.ends.len(), |e| {
+            Some(EdgeId::new(e)).filter(|&edge| is_side[e] && self.is_undivided(edge))
+        })
+    }
+
+    /// True if no node divides edge `e`.
+    pub(crate) fn is_undivided(&self, e: EdgeId) -> bool {
+        self.middle.get(e.index()).is_none_or(|&middle| middle == UNDIVIDED)
+    }
+
+    /// Lets the nodes from `first_node` on divide the edges `divided`, which ascend.
+    pub(crate) fn divide(
+        &mut self,
+        divided: &[EdgeId],
+        first_node: usize,
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
+        let node = |k: usize| NodeId::new(first_node + k);
+        put(&mut self.middle, UNDIVIDED, self.ends.len(), divided, node, monitor)
+    }
+
+    /// Undoes [`divide`](Self::divide), as far as it went.
+    fn unite(&mut self, divided: &[EdgeId]) {
+        for edge in divided {
+            if let Some(middle) = self.middle.get_mut(edge.index()) {
+                *middle = UNDIVIDED;
+            }
+        }
+    }
+
+    /// Makes the halves of the edges that were split since it was last called, as the next edges of `ends`. Stopped, it
+    /// can be called again: it goes on where it was.
+    fn halve(&mut self, ends: &mut Vec<[NodeId; 2]>, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        while let Some(&run) = self.runs.first() {
+            let newly_split = &self.split[self.halved..run];
+            let first_half = ends.len();
+            let half = |k: usize| EdgeId::new(first_half + 2 * k);
+            put(&mut self.halves, EdgeId::default(), self.ends.len(), newly_split, half, monitor)?;
+            parallel::try_extend_arrays(ends, newly_split.len(), monitor, |k| {
+                let edge = newly_split[k].index();
+                self.ends[edge].map(|end| [self.middle[edge], end])
+            })?;
+            self.halved = run;
+            self.runs.remove(0);
+        }
+        Ok(())
     }
 
     /// The half of edge `e` at local node `corner` of an element that has it. Edge nodes are local nodes 1
@@ -118,6 +153,23 @@ impl LevelEdges {
     fn half(&self, e: EdgeId, corner: usize) -> EdgeId {
         EdgeId(self.halves[e.index()].0 + u32::from(corner.is_multiple_of(2)))
     }
+}
+
+/// Sets `of_edge` to `value(k)` at the edge `edges[k]`, for each `k`; these ascend. Where it is too short for all `count`
+/// edges, `nothing` is appended.
+fn put<T: Copy + Send + Sync>(
+    of_edge: &mut Vec<T>,
+    nothing: T,
+    count: usize,
+    edges: &[EdgeId],
+    value: impl Fn(usize) -> T + Sync,
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
+    if of_edge.is_empty() && edges.len() == count {
+        return parallel::try_extend(of_edge, count, monitor, value);
+    }
+    parallel::try_extend(of_edge, count - of_edge.len(), monitor, |_| nothing)?;
+    parallel::try_scatter(of_edge, edges.len(), monitor, |k| edges[k].index(), value)
 }
 
 /// A forest of quadtrees: the nodes of all levels and the elements of each.
@@ -137,6 +189,41 @@ impl QuadForest {
         self.levels.iter().map(|l| l.elements.len() - l.refined.len()).sum()
     }
 
+    /// Makes room for the nodes of `levels` more levels, in each of which all elements are split.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn expect_levels(&mut self, levels: u8, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        let Some(last) = self.levels.last() else { return Ok(()) };
+        let (mut faces, mut edges, mut nodes) = (last.elements.len(), last.edges.ends.len(), 0);
+        for _ in 0..levels {
+            nodes += edges + faces;
+            (edges, faces) = (2 * edges + 4 * faces, 4 * faces);
+        }
+        parallel::try_reserve(&mut self.positions, nodes, monitor)
+    }
+
+    /// Makes room for the split of `count` elements of `levels[depth]`, at least one, so that it need not be made bit by
+    /// bit.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn expect(&mut self, depth: usize, count: usize, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        // A quad has about two edges of its own.
+        parallel::try_reserve(&mut self.positions, 3 * count, monitor)?;
+        let child = self.child_of(depth);
+        parallel::try_reserve(&mut child.elements, 4 * with_slack(count), monitor)?;
+        parallel::try_reserve(&mut child.roots, with_slack(count), monitor)
+    }
+
+    /// The level below `levels[depth]`.
+    fn child_of(&mut self, depth: usize) -> &mut Level {
+        if depth + 1 == self.levels.len() {
+            self.levels.push(Level { siblings: 2, ..Level::default() });
+        }
+        &mut self.levels[depth + 1]
+    }
+
     /// Splits the elements `marked` of `levels[depth]`, none of which is refined yet, into four each.
     ///
     /// # Errors
@@ -146,25 +233,22 @@ impl QuadForest {
             return Ok(());
         }
         self.complete_edges_of(depth, monitor)?;
-        if depth + 1 == self.levels.len() {
-            self.levels.push(Level { siblings: 2, ..Level::default() });
-        }
         let first_node = self.positions.len();
-        let mut divided = self.levels[depth].edges.undivided_of(marked);
-        let made = self
-            .add_nodes(depth, marked, &divided, monitor)
-            .and_then(|()| self.children(depth, marked, first_node + divided.len(), monitor));
-        let blocks = made.inspect_err(|_| self.take_back_nodes(depth, first_node, &divided))?;
+        let divided = self.levels[depth].edges.undivided_of(marked);
+        let first_child = self.child_of(depth).elements.len();
+        self.add_nodes(depth, marked, &divided, monitor)
+            .and_then(|()| self.add_children(depth, marked, first_node + divided.len(), monitor))
+            .inspect_err(|_| {
+                self.positions.truncate(first_node);
+                self.levels[depth + 1].elements.truncate(first_child);
+                self.levels[depth].edges.unite(&divided);
+            })?;
         let (parents, children) = self.levels.split_at_mut(depth + 1);
         let (parent, child) = (&mut parents[depth], &mut children[0]);
-        parent.edges.split.append(&mut divided);
-        append(&mut child.elements, blocks.into_flattened());
-        child.is_refined.resize(child.elements.len(), false);
-        child.roots.extend(marked.iter().map(|&e| parent.root(e as usize)));
-        for &e in marked {
-            parent.is_refined[e as usize] = true;
-        }
-        parent.refined.extend_from_slice(marked);
+        parallel::extend(&mut child.roots, marked.len(), |k| parent.root(marked[k] as usize));
+        parallel::extend_from_slice(&mut parent.refined, marked);
+        append(&mut parent.edges.split, divided);
+        parent.edges.runs.push(parent.edges.split.len());
         Ok(())
     }
 
@@ -178,34 +262,27 @@ impl QuadForest {
     ) -> Result<(), Cancelled> {
         let Level { elements, edges, .. } = &mut self.levels[depth];
         let first_node = self.positions.len();
-        let count = divided.len() + marked.len();
-        parallel::try_grow(&mut self.positions, count, monitor, |old, k| match divided.get(k) {
-            Some(edge) => midpoint(old, edges.ends[edge.index()]),
-            None => center(old, elements[marked[k - divided.len()] as usize]),
+        parallel::try_reserve(&mut self.positions, divided.len() + marked.len(), monitor)?;
+        parallel::try_grow(&mut self.positions, divided.len(), monitor, |old, k| {
+            midpoint(old, edges.ends[divided[k].index()])
         })?;
-        for batch in batches(divided.len(), monitor) {
-            batch?.for_each(|k| edges.middle[divided[k].index()] = NodeId::new(first_node + k));
-        }
-        Ok(())
+        parallel::try_grow(&mut self.positions, marked.len(), monitor, |old, k| {
+            center(old, elements[marked[k] as usize])
+        })?;
+        edges.divide(divided, first_node, monitor)
     }
 
-    /// Undoes [`add_nodes`](Self::add_nodes), as far as it went.
-    fn take_back_nodes(&mut self, depth: usize, first_node: usize, divided: &[EdgeId]) {
-        self.positions.truncate(first_node);
-        let middle = &mut self.levels[depth].edges.middle;
-        divided.iter().for_each(|edge| middle[edge.index()] = UNDIVIDED);
-    }
-
-    /// The four children of each of the `marked` elements, whose face nodes are numbered from `first_face_node`.
-    fn children(
-        &self,
+    /// Adds the four children of each of the `marked` elements, whose face nodes are numbered from `first_face_node`.
+    fn add_children(
+        &mut self,
         depth: usize,
         marked: &[u32],
         first_face_node: usize,
         monitor: &dyn Monitor,
-    ) -> Result<Vec<[[NodeId; 4]; 4]>, Cancelled> {
-        let Level { elements, edges, .. } = &self.levels[depth];
-        parallel::try_collect(marked.len(), monitor, |k| {
+    ) -> Result<(), Cancelled> {
+        let (parents, children) = self.levels.split_at_mut(depth + 1);
+        let Level { elements, edges, .. } = &parents[depth];
+        parallel::try_extend_arrays(&mut children[0].elements, marked.len(), monitor, |k| {
             let e = marked[k] as usize;
             let [r0, r1, r2, r3] = elements[e];
             let [m0, m1, m2, m3] = edges.of_element[e].map(|e| edges.middle[e.index()]);
@@ -231,44 +308,30 @@ impl QuadForest {
         let (parent, child) = (&mut parents[above], &mut children[0]);
         let Level { elements, edges, .. } = child;
 
-        let first_split = parent.edges.halved;
-        let first_block = edges.of_element.len() / 4;
-        let (new_splits, new_blocks) =
-            (parent.edges.split.len() - first_split, parent.refined.len() - first_block);
-        edges.ends.reserve(2 * new_splits + 4 * new_blocks);
-        edges.of_element.reserve(4 * new_blocks);
-        for batch in batches(new_splits, monitor) {
-            let batch = batch?;
-            let newly_split = &parent.edges.split[first_split + batch.start..first_split + batch.end];
-            let first_half = edges.ends.len();
-            for (k, edge) in newly_split.iter().enumerate() {
-                parent.edges.halves[edge.index()] = EdgeId::new(first_half + 2 * k);
-            }
-            parallel::extend(&mut edges.ends, 2 * newly_split.len(), |half| {
-                let edge = newly_split[half / 2].index();
-                [parent.edges.middle[edge], parent.edges.ends[edge][half % 2]]
-            });
-            parent.edges.halved = first_split + batch.end;
-        }
-        for batch in batches(new_blocks, monitor) {
-            let batch = batch?;
-            let (first, last) = (first_block + batch.start, first_block + batch.end);
-            let first_interior = edges.ends.len();
-            let (children, parents) = (&elements[4 * first..4 * last], &parent.refined[first..last]);
-            parallel::extend(&mut edges.ends, children.len(), |c| [children[c][1], children[c][2]]);
-            parallel::extend(&mut edges.of_element, children.len(), |c| {
-                let (k, i) = (c / 4, c % 4);
-                let sides = parent.edges.of_element[parents[k] as usize];
+        let new_halves = 2 * (parent.edges.split.len() - parent.edges.halved);
+        let known = edges.of_element.len();
+        let (children, parents) = (&elements[known..], &parent.refined[known / 4..]);
+        parallel::try_reserve(&mut edges.ends, with_slack(new_halves + children.len()), monitor)?;
+        parallel::try_reserve(&mut edges.of_element, with_slack(children.len()), monitor)?;
+        parent.edges.halve(&mut edges.ends, monitor)?;
+        let first_interior = edges.ends.len();
+        parallel::try_extend(&mut edges.ends, children.len(), monitor, |c| [children[c][1], children[c][2]])?;
+        parallel::try_extend_arrays::<_, 4>(&mut edges.of_element, parents.len(), monitor, |k| {
+            let sides = parent.edges.of_element[parents[k] as usize];
+            std::array::from_fn(|i| {
                 let before = (i + 3) % 4;
                 let half = |side: usize| parent.edges.half(sides[side], i);
-                let interior = |i: usize| EdgeId((first_interior + 4 * k + i) as u32);
+                let interior = |i: usize| EdgeId::new(first_interior + 4 * k + i);
                 [half(i), interior(i), interior(before), half(before)]
-            });
-        }
-        edges.middle.resize(edges.ends.len(), UNDIVIDED);
-        edges.halves.resize(edges.ends.len(), EdgeId::default());
-        Ok(())
+            })
+        })
+        .inspect_err(|_| edges.ends.truncate(first_interior))
     }
+}
+
+/// A little more than `count`: balance and templates add to what refinement makes.
+fn with_slack(count: usize) -> usize {
+    count + count / 16
 }
 
 /// Halfway between the ends of an edge.

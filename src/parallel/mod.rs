@@ -66,7 +66,7 @@ pub fn try_extend<T: Send>(
     monitor: &dyn Monitor,
     make: impl Fn(usize) -> T + Sync,
 ) -> Result<(), Cancelled> {
-    all.reserve(count);
+    try_reserve(all, count, monitor)?;
     let slots = Slots::after(all, count);
     try_each_block(count, block_size(count), monitor, &|block| {
         // SAFETY: blocks do not overlap, and end at `count` at most.
@@ -97,7 +97,7 @@ pub fn try_grow<T: Send + Sync>(
     monitor: &dyn Monitor,
     make: impl Fn(&[T], usize) -> T + Sync,
 ) -> Result<(), Cancelled> {
-    all.reserve(count);
+    try_reserve(all, count, monitor)?;
     let slots = Slots::after(all, count);
     let before = all.as_slice();
     try_each_block(count, block_size(count), monitor, &|block| {
@@ -107,6 +107,101 @@ pub fn try_grow<T: Send + Sync>(
     // SAFETY: every slot below `count` was written; neither a panic in `make` nor a stop comes here.
     unsafe { all.set_len(all.len() + count) };
     Ok(())
+}
+
+/// Appends the `N` items that `make` gives for each number below `count`, unless the monitor stops it: then it appends
+/// nothing.
+///
+/// # Errors
+/// If the monitor stops it.
+pub fn try_extend_arrays<T: Send, const N: usize>(
+    all: &mut Vec<T>,
+    count: usize,
+    monitor: &dyn Monitor,
+    make: impl Fn(usize) -> [T; N] + Sync,
+) -> Result<(), Cancelled> {
+    try_reserve(all, N * count, monitor)?;
+    let slots = Slots::after(all, N * count).in_arrays::<N>();
+    try_each_block(count, block_size(count), monitor, &|block| {
+        // SAFETY: blocks do not overlap, and end at `count` at most.
+        block.for_each(|k| unsafe { slots.write(k, make(k)) });
+    })?;
+    // SAFETY: every slot below `count` was written, `N` items each; neither a panic in `make` nor a stop comes here.
+    unsafe { all.set_len(all.len() + N * count) };
+    Ok(())
+}
+
+/// Makes room for `count` more items, and where there are many, all threads move them. There is room for a quarter more
+/// then, so that an array which grows bit by bit is seldom moved.
+///
+/// # Errors
+/// If the monitor stops it; then there may be no more room than before.
+pub fn try_reserve<T: Send>(all: &mut Vec<T>, count: usize, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+    if count <= all.capacity() - all.len() {
+        return Ok(());
+    }
+    if size_of_val(all.as_slice()) < PAGES {
+        all.reserve(count);
+        return Ok(());
+    }
+    let mut larger = Vec::with_capacity(all.len() + count + all.len() / 4);
+    // SAFETY: there is room for the items. Once they are copied they belong to `larger`, and no longer to `all`.
+    unsafe {
+        slots::try_copy(all.as_ptr().cast(), larger.as_mut_ptr(), all.len(), monitor)?;
+        larger.set_len(all.len());
+        all.set_len(0);
+    }
+    *all = larger;
+    Ok(())
+}
+
+/// So many bytes are worth more than one thread.
+const PAGES: usize = 1 << 18;
+
+/// Sets the item at `place(k)` to `value(k)` for each number `k` below `count`; the places ascend.
+///
+/// # Errors
+/// If the monitor stops it; then some items are as they were.
+///
+/// # Panics
+/// If a place is out of range, or so far out of order that two threads would have to look at it.
+pub fn try_scatter<T: Send>(
+    items: &mut [T],
+    count: usize,
+    monitor: &dyn Monitor,
+    place: impl Fn(usize) -> usize + Sync,
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<(), Cancelled> {
+    let size = block_size(count);
+    let (mut start, mut rest) = (0, items);
+    let mut parts = Vec::with_capacity(count.div_ceil(size));
+    for next in (size..count).step_by(size) {
+        let (part, behind) = rest.split_at_mut(place(next) - start);
+        parts.push((start, part));
+        (start, rest) = (place(next), behind);
+    }
+    parts.push((start, rest));
+    try_for_each_mut(&mut parts, monitor, |b, (start, part)| {
+        (b * size..count.min((b + 1) * size)).for_each(|k| part[place(k) - *start] = value(k));
+    })
+}
+
+/// For each number below `count`, whether it is among the `N` places that `mark` gives for some number below `marks`.
+pub fn flags<const N: usize>(
+    count: usize,
+    marks: usize,
+    mark: impl Fn(usize) -> [usize; N] + Sync,
+) -> Vec<bool> {
+    let mut flags = collect(count, |_| false);
+    raise(&mut flags, marks, mark);
+    flags
+}
+
+/// Raises the flags at the `N` places that `mark` gives for each number below `marks`.
+pub fn raise<const N: usize>(flags: &mut [bool], marks: usize, mark: impl Fn(usize) -> [usize; N] + Sync) {
+    // All threads set flags to the same value, so that their order does not matter.
+    let flags = slots::shared(flags);
+    for_each(marks, |k| mark(k).into_iter().for_each(|place| flags[place].store(true, Relaxed)));
 }
 
 /// Calls `work` for each number below `count`.

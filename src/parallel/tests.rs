@@ -38,6 +38,58 @@ fn loops_keep_the_order_of_the_numbers() {
 }
 
 #[test]
+fn arrays_are_appended_one_behind_the_other() {
+    on_pools(|| {
+        for count in COUNTS {
+            let mut all = vec![9];
+            assert_eq!(try_extend_arrays(&mut all, count, &Silent, |k| [k, 2 * k, 3 * k]), Ok(()));
+            assert_eq!(all.len(), 1 + 3 * count);
+            assert!((0..3 * count).all(|n| all[1 + n] == (n % 3 + 1) * (n / 3)));
+        }
+    });
+}
+
+#[test]
+fn growing_moves_the_items_and_keeps_them() {
+    on_pools(|| {
+        let life = Arc::new(());
+        let mut all: Vec<(usize, Arc<()>)> = collect(100_000, |k| (k, life.clone()));
+        let room = all.capacity() - all.len();
+        assert_eq!(try_reserve(&mut all, room + 1, &StopsAfter(3, AtomicUsize::new(0))), Err(Cancelled));
+        assert_eq!(try_reserve(&mut all, room + 1, &Silent), Ok(()));
+        assert!(all.capacity() > 100_000 + room && all.iter().enumerate().all(|(k, item)| item.0 == k));
+        assert_eq!((all.len(), Arc::strong_count(&life)), (100_000, 100_001));
+    });
+}
+
+#[test]
+fn values_are_scattered_to_ascending_places() {
+    on_pools(|| {
+        for count in COUNTS {
+            let mut items = vec![usize::MAX; 3 * count + 1];
+            assert_eq!(try_scatter(&mut items, count, &Silent, |k| 3 * k + 1, |k| 10 * k), Ok(()));
+            let wanted = |n: usize| if n % 3 == 1 { n / 3 * 10 } else { usize::MAX };
+            assert!(items.iter().enumerate().all(|(n, &item)| item == wanted(n)));
+        }
+        let descending = |k: usize| 999 - k;
+        let scatter = || try_scatter(&mut [0; 1000], 1000, &Silent, descending, |k| k);
+        assert!(catch_unwind(AssertUnwindSafe(scatter)).is_err(), "places that do not ascend");
+    });
+}
+
+#[test]
+fn flags_stand_where_something_marks() {
+    on_pools(|| {
+        for count in COUNTS {
+            let mut marked = flags(count + 1, count.div_ceil(2), |k| [2 * k, 2 * k]);
+            assert!(marked.iter().enumerate().all(|(k, &is)| is == (k < count && k % 2 == 0)));
+            raise(&mut marked, 1, |_| [count]);
+            assert!(marked[count]);
+        }
+    });
+}
+
+#[test]
 fn what_is_gathered_is_in_order_whatever_each_number_adds() {
     on_pools(|| {
         for count in COUNTS {

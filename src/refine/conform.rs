@@ -14,13 +14,14 @@
 //! Quads come out level by level: first those that stay, then template 1, then template 2, each in the order of
 //! their elements.
 
+use std::mem::take;
+
 use super::options::{RefineError, RefinedQuads};
-use crate::forest::{Level, QuadForest, UNDIVIDED, center, midpoint};
+use crate::forest::{Level, QuadForest, center, midpoint};
 use crate::geometry::Point;
-use crate::mesh::{FaceId, NodeId, QuadMesh, Tags};
-use crate::monitor::batches;
+use crate::mesh::{EdgeId, FaceId, NodeId, QuadMesh, Tags};
 use crate::parallel;
-use crate::template::quad::{Cells, SPLIT, TEMPLATE_1, place};
+use crate::template::quad::{SPLIT, TEMPLATE_1, place};
 use crate::{Cancelled, Monitor, Stage};
 
 /// The stage that this file reports.
@@ -37,8 +38,8 @@ pub(super) fn conform(
     monitor: &dyn Monitor,
 ) -> Result<RefinedQuads, RefineError> {
     forest.complete_edges(monitor)?;
-    let QuadForest { mut positions, levels, base_level } = forest;
-    let active = active_nodes(&levels, positions.len(), monitor)?;
+    let QuadForest { mut positions, mut levels, base_level } = forest;
+    let active = active_nodes(&levels, positions.len());
     let transitions: Vec<Transition> =
         levels.iter().map(|level| Transition::of(level, &active, monitor)).collect::<Result<_, _>>()?;
     let (depth, quads) = (levels.len(), transitions.iter().map(Transition::quad_count).sum());
@@ -46,31 +47,41 @@ pub(super) fn conform(
         let level = base_level + (depth - 1) as u8;
         return Err(RefineError::TooManyQuads { level, quads: quads as u64, limit });
     }
-    let mut out = Leaves::with_capacity(quads);
+    // Their memory is soon used again.
+    levels.iter_mut().filter(|level| !is_mixed(level)).for_each(|level| level.edges = Default::default());
+    let mut out =
+        Leaves { level: Vec::with_capacity(quads), parent: Vec::with_capacity(quads), quads: Vec::new() };
+    if levels.iter().any(is_mixed) {
+        out.quads.reserve_exact(quads);
+    }
     for (k, (mut level, transition)) in levels.into_iter().zip(&transitions).enumerate() {
         monitor.checkpoint(TEMPLATES, k as f64 / depth as f64)?;
         divide_active_edges(&mut level, &active, &mut positions, monitor)?;
         out.conform(level, transition, &mut positions, monitor)?;
-        out.level.resize(out.quads.len(), base_level + k as u8);
+        let made = out.quads.len() - out.level.len();
+        parallel::extend(&mut out.level, made, |_| base_level + k as u8);
     }
     let tags = tags.inherited(bytemuck::cast_slice(&out.parent));
     let mesh = QuadMesh { positions, quads: out.quads };
     Ok(RefinedQuads { mesh, level: out.level, parent: out.parent, tags, capped: 0 })
 }
 
-/// For each node: is it an edge node of a refined element?
-fn active_nodes(levels: &[Level], node_count: usize, monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
-    let mut active = vec![false; node_count];
-    for level in levels {
-        for batch in batches(level.refined.len(), monitor) {
-            for &e in &level.refined[batch?] {
-                let [_, edge_node, _, other_edge_node] = level.elements[e as usize];
-                active[edge_node.index()] = true;
-                active[other_edge_node.index()] = true;
-            }
-        }
+/// True if some elements of a level are refined and others are not: only there are transitions.
+fn is_mixed(level: &Level) -> bool {
+    !level.refined.is_empty() && !level.is_full()
+}
+
+/// For each node: is it an edge node of a refined element, in a level with transitions? None is where there are none.
+fn active_nodes(levels: &[Level], node_count: usize) -> Vec<bool> {
+    let mut active = Vec::new();
+    for Level { elements, refined, .. } in levels.iter().filter(|level| is_mixed(level)) {
+        active.resize(node_count, false);
+        parallel::raise(&mut active, refined.len(), |k| {
+            let [_, edge_node, _, other_edge_node] = elements[refined[k] as usize];
+            [edge_node.index(), other_edge_node.index()]
+        });
     }
-    Ok(active)
+    active
 }
 
 /// The elements of a level that are not refined, by what becomes of them.
@@ -96,24 +107,29 @@ impl Default for Stay {
     }
 }
 
+/// So many elements of a level are sorted by their templates at a time.
+const SORTED_AT_ONCE: usize = 1 << 14;
+
 impl Transition {
     fn of(level: &Level, active: &[bool], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         if level.refined.is_empty() {
             return Ok(Self { stay: Stay::All(level.elements.len()), ..Self::default() });
         }
-        let left = parallel::filter(level.elements.len(), |e| !level.is_refined[e]);
-        let select = |wanted: (bool, bool)| -> Result<Vec<u32>, Cancelled> {
-            monitor.proceed()?;
-            Ok(parallel::filter_map(left.len(), |k| {
-                let [_, a, _, b] = level.elements[left[k] as usize];
-                ((active[a.index()], active[b.index()]) == wanted).then_some(left[k])
-            }))
-        };
-        Ok(Self {
-            stay: Stay::Some(select((false, false))?),
-            one: [select((true, false))?, select((false, true))?],
-            two: select((true, true))?,
-        })
+        if level.is_full() {
+            return Ok(Self::default());
+        }
+        let is_refined = level.are_refined();
+        let mut blocks = parallel::try_blocks(level.elements.len(), SORTED_AT_ONCE, monitor, |block| {
+            let mut by_active: [Vec<u32>; 4] = Default::default();
+            for e in block.filter(|&e| !is_refined[e]) {
+                let [_, a, _, b] = level.elements[e].map(|n| usize::from(active[n.index()]));
+                by_active[a + 2 * b].push(e as u32);
+            }
+            by_active
+        })?;
+        let mut with =
+            |active: usize| parallel::concat(blocks.iter_mut().map(|b| take(&mut b[active])).collect());
+        Ok(Self { stay: Stay::Some(with(0)), one: [with(1), with(2)], two: with(3) })
     }
 
     /// How many quads the elements become.
@@ -133,17 +149,19 @@ fn divide_active_edges(
     positions: &mut Vec<Point>,
     monitor: &dyn Monitor,
 ) -> Result<(), Cancelled> {
-    let edges = &mut level.edges;
-    for batch in batches(edges.ends.len(), monitor) {
-        let batch = batch?;
-        for (ends, middle) in edges.ends[batch.clone()].iter().zip(&mut edges.middle[batch]) {
-            if *middle == UNDIVIDED && active[ends[0].index()] {
-                *middle = NodeId::new(positions.len());
-                positions.push(midpoint(positions, *ends));
-            }
-        }
+    if !is_mixed(level) {
+        return Ok(());
     }
-    Ok(())
+    let edges = &mut level.edges;
+    let divided = parallel::filter_map(edges.ends.len(), |e| {
+        let edge = EdgeId::new(e);
+        (edges.is_undivided(edge) && active[edges.ends[e][0].index()]).then_some(edge)
+    });
+    let first_node = positions.len();
+    parallel::try_grow(positions, divided.len(), monitor, |old, k| {
+        midpoint(old, edges.ends[divided[k].index()])
+    })?;
+    edges.divide(&divided, first_node, monitor)
 }
 
 /// The quads of the result so far.
@@ -154,14 +172,6 @@ struct Leaves {
 }
 
 impl Leaves {
-    fn with_capacity(quads: usize) -> Self {
-        Self {
-            quads: Vec::with_capacity(quads),
-            level: Vec::with_capacity(quads),
-            parent: Vec::with_capacity(quads),
-        }
-    }
-
     /// Takes the elements of a level that are not refined, by their templates.
     fn conform(
         &mut self,
@@ -172,48 +182,43 @@ impl Leaves {
     ) -> Result<(), Cancelled> {
         let Transition { stay, one: [first, third], two } = transition;
         match stay {
-            Stay::All(_) => {
-                parallel::extend(&mut self.parent, level.elements.len(), |e| level.root(e));
+            Stay::All(count) => {
+                parallel::try_extend(&mut self.parent, *count, monitor, |e| level.root(e))?;
                 if self.quads.is_empty() {
                     self.quads = level.elements;
-                } else {
-                    parallel::extend_from_slice(&mut self.quads, &level.elements);
+                    return Ok(());
                 }
-                return Ok(());
+                return parallel::try_extend(&mut self.quads, *count, monitor, |e| level.elements[e]);
             }
             Stay::Some(elements) => {
                 let (count, element) = (elements.len(), |k: usize| elements[k] as usize);
-                parallel::extend(&mut self.parent, count, |k| level.root(element(k)));
-                parallel::extend(&mut self.quads, count, |k| level.elements[element(k)]);
+                parallel::try_extend(&mut self.parent, count, monitor, |k| level.root(element(k)))?;
+                parallel::try_extend(&mut self.quads, count, monitor, |k| level.elements[element(k)])?;
             }
         }
-        monitor.proceed()?;
-        self.apply(&TEMPLATE_1[1], first, &level, positions);
-        monitor.proceed()?;
-        self.apply(&TEMPLATE_1[3], third, &level, positions);
-        monitor.proceed()?;
-        self.apply(&SPLIT, two, &level, positions);
-        Ok(())
+        self.apply(|nodes| place(&TEMPLATE_1[1], nodes), first, &level, positions, monitor)?;
+        self.apply(|nodes| place(&TEMPLATE_1[3], nodes), third, &level, positions, monitor)?;
+        self.apply(|nodes| place(&SPLIT, nodes), two, &level, positions, monitor)
     }
 
-    /// Applies a template to `elements` of a level, giving each a face node.
+    /// Replaces `elements` of a level by the quads of a template, giving each a face node.
     fn apply<const N: usize>(
         &mut self,
-        template: &Cells<N>,
+        template: impl Fn(&[NodeId; 9]) -> [[NodeId; 4]; N] + Sync,
         elements: &[u32],
         level: &Level,
         positions: &mut Vec<Point>,
-    ) {
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
+        let (count, element) = (elements.len(), |k: usize| elements[k] as usize);
         let first_face_node = positions.len();
-        parallel::grow(positions, elements.len(), |old, k| center(old, level.elements[elements[k] as usize]));
-        let cells: Vec<[[NodeId; 4]; N]> = parallel::collect(elements.len(), |k| {
-            let e = elements[k] as usize;
-            let [r0, r1, r2, r3] = level.elements[e];
-            let [m0, m1, m2, m3] = level.edges.of_element[e].map(|e| level.edges.middle[e.index()]);
-            let face_node = NodeId::new(first_face_node + k);
-            place(template, &[r0, r1, r2, r3, m0, m1, m2, m3, face_node])
-        });
-        self.quads.extend_from_slice(cells.as_flattened());
-        parallel::extend(&mut self.parent, N * elements.len(), |k| level.root(elements[k / N] as usize));
+        parallel::try_grow(positions, count, monitor, |old, k| center(old, level.elements[element(k)]))?;
+        parallel::try_extend_arrays(&mut self.quads, count, monitor, |k| {
+            let [r0, r1, r2, r3] = level.elements[element(k)];
+            let sides = level.edges.of_element[element(k)];
+            let [m0, m1, m2, m3] = sides.map(|edge| level.edges.middle[edge.index()]);
+            template(&[r0, r1, r2, r3, m0, m1, m2, m3, NodeId::new(first_face_node + k)])
+        })?;
+        parallel::try_extend_arrays(&mut self.parent, count, monitor, |k| [level.root(element(k)); N])
     }
 }

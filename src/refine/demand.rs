@@ -31,6 +31,12 @@ impl Demand {
         Ok(demand)
     }
 
+    /// How many levels more every element of `level` is to be refined, and none further, if that is known.
+    pub fn uniform_levels_from(&self, level: u8, max_levels: u8) -> u8 {
+        let last = self.everywhere.min(max_levels);
+        if self.is_idle_from(last) { last.saturating_sub(level) } else { 0 }
+    }
+
     /// True if every element of `level` is wanted finer.
     pub fn is_uniform_at(&self, level: u8) -> bool {
         level < self.everywhere

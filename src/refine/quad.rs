@@ -170,7 +170,13 @@ impl<'a> QuadRefinement<'a> {
             return Ok(false);
         }
         check_size(self.options, 1, input.corners.len() as u64)?;
-        self.forest = Some(QuadForest::refined_once(input, monitor)?);
+        let mut forest = QuadForest::refined_once(input, monitor)?;
+        let levels = self.demand.uniform_levels_from(forest.base_level, self.options.max_levels);
+        let quads = input.corners.len() as f64 * 4_f64.powi(levels.into());
+        if quads <= self.options.max_quads as f64 {
+            forest.expect_levels(levels, monitor)?;
+        }
+        self.forest = Some(forest);
         Ok(true)
     }
 
@@ -209,13 +215,18 @@ impl<'a> QuadRefinement<'a> {
         let level = forest.base_level + depth as u8 + 1;
         let quads = forest.leaf_count() as u64 + 3 * marked.len() as u64;
         check_size(self.options, level, quads)?;
+        if marked.is_empty() {
+            return Ok(false);
+        }
         let (from, to) = (self.share_of_work(level - 1), self.share_of_work(level));
+        let forest = self.forest.as_mut().expect("the forest that was marked");
+        forest.expect(depth, marked.len(), monitor)?;
         for (k, batch) in marked.chunks(BATCH).enumerate() {
             let share = (k * BATCH) as f64 / marked.len() as f64;
             monitor.checkpoint(REFINE, from + share * (to - from))?;
-            self.forest.as_mut().expect("the forest that was marked").split(depth, batch, monitor)?;
+            forest.split(depth, batch, monitor)?;
         }
-        Ok(!marked.is_empty())
+        Ok(true)
     }
 
     /// How much of the refinement is done once all elements of `level` are made: each level is about four times

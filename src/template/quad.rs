@@ -68,8 +68,15 @@ const fn rotated<const N: usize>(mut cells: Cells<N>, turns: u8) -> Cells<N> {
 }
 
 /// The nodes that stand for the nine local nodes, placed into the template's quads.
+#[inline(always)]
 pub fn place<T: Copy, const N: usize>(cells: &Cells<N>, nodes: &[T; 9]) -> [[T; 4]; N] {
-    cells.map(|cell| cell.map(|local| nodes[local as usize]))
+    let mut placed = [[nodes[0]; 4]; N];
+    for (quad, cell) in placed.iter_mut().zip(cells) {
+        for (node, &local) in quad.iter_mut().zip(cell) {
+            *node = nodes[usize::from(local)];
+        }
+    }
+    placed
 }
 
 #[cfg(test)]
