@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use hexmill::hexing::HexingOptions;
+use hexmill::hexing::face::RegionOptions;
 use hexmill::refine::QuadOptions;
 use hexmill::refine::hex::{HexOptions, Method};
 
@@ -45,6 +46,9 @@ pub(crate) enum Command {
     /// Make a box of hexes around a mesh
     #[command(after_long_help = GRID_EXAMPLES)]
     Grid(GridArgs),
+    /// Mesh a planar face with quads alone, along its outline, holes and inner curves
+    #[command(after_long_help = QUAD_EXAMPLES)]
+    Quad(QuadArgs),
 }
 
 const REFINE_EXAMPLES: &str = "\
@@ -114,6 +118,14 @@ Examples:
   hexmill grid hull.obj --spacing 0.5 -o sea.vtu                 cubes of edge 0.5
   hexmill grid hull.obj --spacing 0.5 --margin 4 -o sea.vtu      reaching 4 beyond the hull at least
   hexmill grid hull.obj --spacing 0.5 --margin 4 --fit -o sea.vtu    and no farther: edges up to 0.5";
+
+const QUAD_EXAMPLES: &str = "\
+The polygons of IN lie in one plane, any plane. Their common outline and their holes are kept, and so are the polylines
+(OBJ l lines) in it: edges of the quads follow them. Corners of more than 40 degrees are nodes, and so are nodes with a
+sharpness (OBJ t corner).
+
+Examples:
+  hexmill quad plate.obj -o quads.vtu --edge-length 0.5";
 
 /// `hexmill refine`.
 #[derive(Args, Debug)]
@@ -300,6 +312,30 @@ pub(crate) struct GridArgs {
     /// Refuse to make more hexes than this [default: 16000000]
     #[arg(long, value_name = "N")]
     pub(crate) max_hexes: Option<u64>,
+}
+
+/// `hexmill quad`.
+#[derive(Args, Debug)]
+pub(crate) struct QuadArgs {
+    /// The planar face: polygons, and polylines for inner curves
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// Where to write the mesh
+    #[arg(long, short, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+
+    /// About how long the edges are to be, in model units
+    #[arg(long, short = 'e', value_name = "L", value_parser = positive)]
+    pub(crate) edge_length: f64,
+
+    /// Refuse to make more quads than this [default: 16000000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=RegionOptions::MOST_QUADS))]
+    pub(crate) max_quads: Option<u64>,
+
+    /// Where to write a record of the work as JSON (see docs/report.md)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
 }
 
 /// A finite number above zero.

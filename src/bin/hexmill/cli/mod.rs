@@ -11,6 +11,7 @@ mod hex;
 mod memory;
 mod mesh_report;
 mod progress;
+mod quad;
 mod refine;
 mod refine_hexes;
 mod refine_surface;
@@ -34,6 +35,7 @@ pub fn run() -> ExitCode {
         Command::Check(args) => check::run(&args, cli.quiet),
         Command::Convert(args) => convert::run(&args, cli.quiet),
         Command::Grid(args) => grid::run(&args, cli.quiet),
+        Command::Quad(args) => quad::run(&args, cli.quiet),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

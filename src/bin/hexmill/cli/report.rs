@@ -5,6 +5,7 @@ use std::path::Path;
 use hexmill::hexing::HexingReport;
 use hexmill::io::Format;
 use hexmill::mesh::Distances;
+use hexmill::mesh::NodeId;
 use hexmill::refine::hex::{Added, HexForecast, Method, StageReport};
 use serde::Serialize;
 
@@ -32,6 +33,9 @@ pub(crate) struct Report {
     /// Of the meshing of a solid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) hexing: Option<HexingReport>,
+    /// Of a planar face.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) face: Option<FaceReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) output: Option<FileReport>,
     pub(crate) mesh: MeshReport,
@@ -54,6 +58,7 @@ impl Report {
             options: None,
             refinement: None,
             hexing: None,
+            face: None,
             output: None,
             mesh,
             distance: None,
@@ -130,6 +135,16 @@ pub(crate) struct OptionsReport {
     pub(crate) max_hexes: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) method: Option<Method>,
+}
+
+/// What was asked of the mesh of a planar face, and what could not be met.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct FaceReport {
+    pub(crate) edge_length: f64,
+    pub(crate) max_quads: u64,
+    pub(crate) off_curve: Vec<(NodeId, f64)>,
+    pub(crate) dropped_polylines: Vec<u32>,
 }
 
 /// The most memory that this program has held so far, where the system tells.

@@ -1,0 +1,206 @@
+//! The swept background (the paper's §4.2): the quads of the principal face, layer by layer along the direction.
+
+use crate::geometry::Point;
+use crate::hexing::face::{FaceError, PrincipalFace, RegionOptions, principal_face};
+use crate::mesh::{HexMesh, NodeId, Tags};
+use crate::solid::{Curve, SolidModel, SurfaceClass};
+use crate::{Cancelled, Monitor, Stage, parallel};
+
+/// Refuse more hexes than this before those far outside are dropped.
+const MOST_HEXES: u64 = 16_000_000;
+
+/// Hexes whose centre is farther outside than this, in edge lengths, are dropped.
+const FAR: f64 = 2.0;
+
+/// Levels closer than this, in edge lengths, are one.
+const MERGED: f64 = 0.25;
+
+/// A curve whose points are no farther apart along the direction than this, in edge lengths, is across it.
+const FLAT: f64 = 0.01;
+
+/// The cosine of 1 degree: normals closer than this to the direction are along it.
+const ALONG: f64 = 0.999_847_7;
+
+const SWEEP: Stage = Stage("sweep");
+
+/// Why a solid was not swept.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SweepError {
+    /// The monitor asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The principal face was not meshed.
+    #[error("the principal face cannot be meshed: {0}")]
+    Face(FaceError),
+    /// There would be more hexes than allowed.
+    #[error("about {hexes:.3e} hexes are more than the limit of {limit}; raise the edge length")]
+    TooManyHexes {
+        /// How many hexes, about.
+        hexes: f64,
+        /// The limit.
+        limit: u64,
+    },
+}
+
+impl SweepError {
+    /// A stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Cancelled(_) => "cancelled",
+            Self::Face(error) => error.code(),
+            Self::TooManyHexes { .. } => "too-many-hexes",
+        }
+    }
+}
+
+impl From<FaceError> for SweepError {
+    fn from(error: FaceError) -> Self {
+        match error {
+            FaceError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Face(error),
+        }
+    }
+}
+
+/// Sweeps the principal face of a solid from end to end of it along `direction`, of any length but 0. Layers stand in
+/// planar surfaces and curves across the direction; between them edges are about `edge_length` long. Hexes that are
+/// farther outside than two edge lengths are left out; all others are there, inside or outside.
+///
+/// The hexes are conforming and positive: each is a quad of the face times a step. Nodes and hexes are numbered layer by
+/// layer.
+///
+/// # Errors
+/// See [`SweepError`]. The number of hexes is held against the limit before any is made.
+pub fn swept(
+    solid: &SolidModel,
+    direction: Point,
+    edge_length: f64,
+    monitor: &dyn Monitor,
+) -> Result<HexMesh, SweepError> {
+    let heights = layers(solid, direction, edge_length)?;
+    let face = face_for(solid, direction, edge_length, heights.len() - 1, monitor)?;
+    monitor.checkpoint(SWEEP, 0.0)?;
+    let (points, quads) = (face.mesh.points.len(), face.mesh.quads.len());
+    let hexes = quads * (heights.len() - 1);
+    let [u, v, w] = face.axes;
+    let position = |n: usize| {
+        let (p, height) = (face.mesh.points[n % points], heights[n / points]);
+        u * p.x + v * p.y + w * height
+    };
+    let hex = |k: usize| {
+        let (quad, layer) = (face.mesh.quads[k % quads], k / quads);
+        let at = |corner: usize, layer: usize| NodeId::new(quad[corner] as usize + layer * points);
+        [0, 1, 2, 3, 4, 5, 6, 7].map(|k| at(k % 4, layer + k / 4))
+    };
+    let positions = parallel::try_collect(points * heights.len(), monitor, position)?;
+    let is_near = |k: usize| {
+        let centre = hex(k).iter().map(|n| positions[n.index()]).sum::<Point>() / 8.0;
+        solid.signed_distance(centre) <= FAR * edge_length
+    };
+    let near = parallel::try_filter(hexes, monitor, is_near)?;
+    monitor.checkpoint(SWEEP, 1.0)?;
+    let hexes = near.into_iter().map(|k| hex(k as usize)).collect();
+    Ok(without_unused(HexMesh { positions, hexes, tags: Tags::default() }))
+}
+
+/// The principal face, if so many layers of it are not too many hexes.
+fn face_for(
+    solid: &SolidModel,
+    direction: Point,
+    edge_length: f64,
+    layers: usize,
+    monitor: &dyn Monitor,
+) -> Result<PrincipalFace, SweepError> {
+    let max_quads = MOST_HEXES / layers as u64;
+    let options = RegionOptions { edge_length, max_quads };
+    let too_many = |quads: f64| SweepError::TooManyHexes { hexes: quads * layers as f64, limit: MOST_HEXES };
+    match principal_face(solid, direction, &options, monitor) {
+        Err(FaceError::TooManyQuads { quads, .. }) => Err(too_many(quads)),
+        // The estimate may have been too low.
+        Ok(face) if face.mesh.quads.len() as u64 > 2 * max_quads => {
+            Err(too_many(face.mesh.quads.len() as f64))
+        }
+        face => Ok(face?),
+    }
+}
+
+/// The heights of all layers along the direction, ascending.
+fn layers(solid: &SolidModel, direction: Point, edge_length: f64) -> Result<Vec<f64>, SweepError> {
+    if edge_length.is_nan() || edge_length <= 0.0 || edge_length.is_infinite() {
+        return Err(FaceError::EdgeLength(edge_length).into());
+    }
+    let direction = direction.try_normalize().ok_or(FaceError::Direction)?;
+    let levels = levels(solid, direction, edge_length);
+    let about = (levels[levels.len() - 1] - levels[0]) / edge_length;
+    if about > MOST_HEXES as f64 {
+        return Err(SweepError::TooManyHexes { hexes: about, limit: MOST_HEXES });
+    }
+    Ok(heights(&levels, edge_length))
+}
+
+/// Where layers stand along the direction: both ends, planar surfaces across it, largest first, and planar curves across
+/// it, longest first, but for those too close to one before. Ascending.
+fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> Vec<f64> {
+    let along = |p: Point| p.dot(direction);
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    let span = |points: &mut dyn Iterator<Item = f64>| points.fold(none, |(a, b), x| (a.min(x), b.max(x)));
+    let (first, last) = span(&mut solid.points().iter().map(|&p| along(p)));
+    let mut wanted: Vec<(f64, f64)> = Vec::new();
+    let across = |class: &SurfaceClass| match class {
+        SurfaceClass::Planar { normal } => normal.dot(direction).abs() > ALONG,
+        _ => false,
+    };
+    for surface in solid.surfaces().iter().filter(|surface| across(&surface.class)) {
+        let corners = surface.triangles.iter().flat_map(|&t| solid.corners_of(t as usize));
+        let (low, high) = span(&mut corners.map(along));
+        wanted.push((surface.area / edge_length, 0.5 * (low + high)));
+    }
+    let surfaces = wanted.len();
+    for curve in solid.curves() {
+        let Curve { vertices, length, .. } = curve;
+        let (low, high) = span(&mut vertices.iter().map(|&v| along(solid.points()[v as usize])));
+        if high - low <= FLAT * edge_length {
+            wanted.push((*length, 0.5 * (low + high)));
+        }
+    }
+    for part in [0..surfaces, surfaces..wanted.len()] {
+        wanted[part].sort_by(|a, b| b.0.total_cmp(&a.0));
+    }
+    let mut levels = vec![first, last];
+    for (_, level) in wanted {
+        if levels.iter().all(|other| (level - other).abs() >= MERGED * edge_length) {
+            levels.push(level);
+        }
+    }
+    levels.sort_by(f64::total_cmp);
+    levels
+}
+
+/// The heights of all layers: steps of about the edge length from level to level.
+fn heights(levels: &[f64], edge_length: f64) -> Vec<f64> {
+    let mut heights = vec![levels[0]];
+    for pair in levels.windows(2) {
+        let steps = ((pair[1] - pair[0]) / edge_length).round().max(1.0) as usize;
+        let step = (pair[1] - pair[0]) / steps as f64;
+        heights.extend((1..steps).map(|k| pair[0] + step * k as f64));
+        heights.push(pair[1]);
+    }
+    heights
+}
+
+/// The mesh without nodes of no hex.
+fn without_unused(mesh: HexMesh) -> HexMesh {
+    let mut used = vec![false; mesh.positions.len()];
+    mesh.hexes.as_flattened().iter().for_each(|n| used[n.index()] = true);
+    let mut number = vec![NodeId(0); mesh.positions.len()];
+    let in_use: Vec<usize> = (0..used.len()).filter(|&n| used[n]).collect();
+    in_use.iter().enumerate().for_each(|(k, &n)| number[n] = NodeId::new(k));
+    HexMesh {
+        positions: in_use.iter().map(|&n| mesh.positions[n]).collect(),
+        hexes: mesh.hexes.iter().map(|hex| hex.map(|n| number[n.index()])).collect(),
+        tags: mesh.tags,
+    }
+}
+
+#[cfg(test)]
+mod tests;

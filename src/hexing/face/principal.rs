@@ -1,0 +1,86 @@
+//! The principal face of a solid along a direction (the paper's §4.1.2), meshed with quads.
+
+use glam::DVec2;
+
+use super::cover::cover;
+use super::embed::{Embedding, TOLERANCE};
+use super::graph::Graph;
+use super::mesher::{FaceError, mesh};
+use super::project::project;
+use super::region::{RegionMesh, RegionOptions, region_mesh};
+use super::relax::relax;
+use super::scale::Projection;
+use super::shadow::Shadow;
+use crate::geometry::Point;
+use crate::solid::SolidModel;
+use crate::{Monitor, Stage};
+
+/// Curves that do not bound what is covered, and are closer than this to others are taken to lie on them: 0.4 h.
+const INNER_TOLERANCE: f64 = 0.2;
+
+const PROJECT: Stage = Stage("project");
+
+/// What a solid covers along a direction, in quads that follow its projected curves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrincipalFace {
+    /// Unit vectors of the face's plane, and the direction, right-handed: a point (x, y) of the mesh stands at
+    /// x `axes[0]` + y `axes[1]`, anywhere along the direction.
+    pub axes: [Point; 3],
+    /// The quads. Nothing is told of dropped curves.
+    pub mesh: RegionMesh,
+    /// Arcs inside of the face, and holes too short to go around, that were given up (the paper's constraints
+    /// relaxation).
+    pub given_up: usize,
+}
+
+/// Projects a solid along `direction` and meshes what it covers with quads, about as long as `options` say.
+///
+/// 1. `project`: feature curves, and rims, where the surface turns away from the direction (`shadow` says
+///    which of them bound what is covered);
+/// 2. `embed`: those are laid one after another, the outline first; what falls together nearly is one curve. A feature curve
+///    along the direction is a node;
+/// 3. `cover`: which parts between them the solid covers, and so which curves are the outline;
+/// 4. `relax`: curves inside that would spoil the quads are given up;
+/// 5. the stages of [`quad_region`](super::quad_region) from `sample` on.
+///
+/// # Errors
+/// See [`FaceError`].
+pub fn principal_face(
+    solid: &SolidModel,
+    direction: Point,
+    options: &RegionOptions,
+    monitor: &dyn Monitor,
+) -> Result<PrincipalFace, FaceError> {
+    monitor.checkpoint(PROJECT, 0.0)?;
+    let projection = Projection::new(solid.points(), direction, options.edge_length)?;
+    let shadow = Shadow::new(solid, &projection);
+    let projected = project(solid, &projection, &shadow);
+    let curves = || projected.rims.iter().chain(&projected.features);
+    let length: f64 =
+        curves().flat_map(|c| c.windows(2)).map(|pair: &[DVec2]| pair[0].distance(pair[1])).sum();
+    options.refuse_quads(length)?;
+    let mut embedding = Embedding::new(Graph::default(), TOLERANCE);
+    for (k, curve) in curves().enumerate() {
+        monitor.checkpoint(PROJECT, k as f64 / curves().count() as f64)?;
+        if k == projected.outlines {
+            embedding.tolerance = INNER_TOLERANCE;
+        }
+        embedding.lay(curve);
+    }
+    for &point in &projected.points {
+        embedding.keep(point);
+    }
+    let mut graph = embedding.graph;
+    let area = cover(&mut graph, &shadow, monitor)?;
+    let given_up = relax(&mut graph);
+    if graph.segments.is_empty() {
+        return Err(FaceError::Empty);
+    }
+    options.refuse_quads(4.0 * area)?;
+    monitor.checkpoint(PROJECT, 1.0)?;
+    let quads = mesh(&graph, area, monitor)?;
+    Ok(PrincipalFace { axes: projection.axes, mesh: region_mesh(quads, &projection.scale), given_up })
+}
+
+#[cfg(test)]
+mod tests;

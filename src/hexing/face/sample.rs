@@ -1,0 +1,184 @@
+//! Nodes along arcs: about two edge lengths apart for the cells that are paired, and between them for those they are
+//! split into.
+//!
+//! 1. Each arc gets `max(1, round(length / 2h))` segments; closed ones an even number, and at least 6.
+//! 2. Where segments of two arcs cross, or fall together, both arcs get twice as many. Arcs that cross nowhere are
+//!    told apart in the end.
+//!
+//! Lengths here are in units of 2h.
+
+use std::collections::HashMap;
+
+use glam::DVec2;
+
+use super::graph::{Arc, Graph, turn};
+use super::mesher::FaceError;
+use super::triangulation::{Outcome, Triangulation};
+use crate::{Cancelled, Monitor};
+
+/// Segments of a closed arc, at least.
+const LEAST_CLOSED: usize = 6;
+
+/// Turn that one segment of an open arc may span, in degrees, unless the arc is short.
+const MOST_TURN: f64 = 90.0;
+
+/// Times that segments are halved to tell arcs apart.
+const HALVINGS: u32 = 10;
+
+/// What is constrained: nodes on arcs.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Samples {
+    /// Where they are; the first `coarse` are those about 2h apart.
+    pub(super) points: Vec<DVec2>,
+    pub(super) coarse: usize,
+    /// The coarse segments, and the node on the arc between their ends.
+    pub(super) segments: Vec<SampledSegment>,
+}
+
+/// A segment of an arc between two samples.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SampledSegment {
+    pub(super) ends: [u32; 2],
+    pub(super) middle: u32,
+    pub(super) outline: bool,
+    arc: u32,
+}
+
+/// Places nodes along all arcs, so that neither the coarse segments nor the fine ones cross.
+pub(super) fn sample(graph: &Graph, arcs: &[Arc], monitor: &dyn Monitor) -> Result<Samples, FaceError> {
+    let courses: Vec<Course> = arcs.iter().map(|arc| Course::new(graph, arc)).collect();
+    let mut counts: Vec<usize> = courses.iter().map(Course::count).collect();
+    for _ in 0..HALVINGS {
+        let samples = place(graph, arcs, &courses, &counts);
+        let crowded = crowded(&samples, arcs.len(), monitor)?;
+        if !crowded.contains(&true) {
+            return Ok(samples);
+        }
+        for (count, _) in counts.iter_mut().zip(crowded).filter(|(_, crowded)| *crowded) {
+            *count *= 2;
+        }
+    }
+    Err(FaceError::TooClose)
+}
+
+/// An arc by its length.
+struct Course {
+    points: Vec<DVec2>,
+    /// The length up to each point.
+    along: Vec<f64>,
+    closed: bool,
+}
+
+impl Course {
+    fn new(graph: &Graph, arc: &Arc) -> Self {
+        let points: Vec<DVec2> = arc.points.iter().map(|&p| graph.points[p as usize]).collect();
+        let mut along = vec![0.0];
+        for pair in points.windows(2) {
+            along.push(along[along.len() - 1] + pair[0].distance(pair[1]));
+        }
+        Self { points, along, closed: arc.is_closed() }
+    }
+
+    fn length(&self) -> f64 {
+        self.along[self.along.len() - 1]
+    }
+
+    /// How many segments it gets.
+    fn count(&self) -> usize {
+        let count = self.length().round().max(1.0) as usize;
+        if self.closed {
+            return (2 * (self.length() / 2.0).round() as usize).max(LEAST_CLOSED);
+        }
+        let turns = self.points.windows(3).map(|p| turn(p[1] - p[0], p[2] - p[1]));
+        let bent = (turns.sum::<f64>() / MOST_TURN - 1e-3).ceil() as usize;
+        if self.length() > 0.5 { count.max(bent) } else { count }
+    }
+
+    /// The point at `share` of the length.
+    fn at(&self, share: f64) -> DVec2 {
+        let length = share * self.length();
+        let k = self.along.partition_point(|&along| along <= length).clamp(1, self.along.len() - 1);
+        let (before, after) = (self.along[k - 1], self.along[k]);
+        let part = if after > before { (length - before) / (after - before) } else { 0.0 };
+        self.points[k - 1].lerp(self.points[k], part)
+    }
+}
+
+fn place(graph: &Graph, arcs: &[Arc], courses: &[Course], counts: &[usize]) -> Samples {
+    let mut samples = Samples::default();
+    let mut at_node: HashMap<u32, u32> = HashMap::new();
+    let add = |samples: &mut Samples, point| {
+        samples.points.push(point);
+        samples.points.len() as u32 - 1
+    };
+    for (a, arc) in arcs.iter().enumerate() {
+        let n = counts[a];
+        let mut ends = [arc.points[0], arc.points[arc.points.len() - 1]].map(|node| {
+            *at_node.entry(node).or_insert_with(|| add(&mut samples, graph.points[node as usize]))
+        });
+        for k in 1..=n {
+            let end = if k == n { ends[1] } else { add(&mut samples, courses[a].at(k as f64 / n as f64)) };
+            let (outline, middle) = (arc.outline, 0);
+            samples.segments.push(SampledSegment { ends: [ends[0], end], middle, outline, arc: a as u32 });
+            ends[0] = end;
+        }
+    }
+    samples.coarse = samples.points.len();
+    let mut segment = 0;
+    for (course, &n) in courses.iter().zip(counts) {
+        for k in 0..n {
+            let middle = add(&mut samples, course.at((k as f64 + 0.5) / n as f64));
+            samples.segments[segment].middle = middle;
+            segment += 1;
+        }
+    }
+    samples
+}
+
+/// For each arc, whether it crosses another one, coarsely or finely.
+fn crowded(samples: &Samples, arcs: usize, monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
+    let mut crowded = vec![false; arcs];
+    let coarse: Vec<_> = samples.segments.iter().map(|s| (s.ends, s.arc)).collect();
+    meet(&samples.points[..samples.coarse], &coarse, &mut crowded, monitor)?;
+    let halves = |s: &SampledSegment| [([s.ends[0], s.middle], s.arc), ([s.middle, s.ends[1]], s.arc)];
+    let fine: Vec<_> = samples.segments.iter().flat_map(halves).collect();
+    meet(&samples.points, &fine, &mut crowded, monitor)?;
+    Ok(crowded)
+}
+
+/// Marks the owners of segments that cross, touch or fall together.
+fn meet(
+    points: &[DVec2],
+    segments: &[([u32; 2], u32)],
+    crowded: &mut [bool],
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
+    let mut triangulation = Triangulation::new();
+    let mut ids = Vec::with_capacity(points.len());
+    for &point in points {
+        ids.push(triangulation.insert(point, monitor)?);
+    }
+    let segments: Vec<_> =
+        segments.iter().map(|&(ends, owner)| (ends.map(|e| ids[e as usize]), owner)).collect();
+    let mut owner_at = vec![0; points.len()];
+    for &(ends, owner) in &segments {
+        ends.iter().for_each(|&end| owner_at[end as usize] = owner);
+    }
+    let mut owner_of: HashMap<[u32; 2], u32> = HashMap::new();
+    for &([a, b], owner) in &segments {
+        let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+        let other = match triangulation.constrain([a, b], monitor)? {
+            Outcome::Added => {
+                owner_of.insert(sorted([a, b]), owner);
+                continue;
+            }
+            Outcome::Degenerate => owner,
+            Outcome::Touches(node) => owner_at[node as usize],
+            Outcome::Exists => owner_of[&sorted([a, b])],
+            Outcome::Crosses(edge) => owner_of[&sorted(edge)],
+        };
+        crowded[owner as usize] = true;
+        crowded[other as usize] = true;
+    }
+    Ok(())
+}
