@@ -2,7 +2,7 @@
 
 use crate::geometry::Point;
 use crate::hexing::face::{FaceError, PrincipalFace, RegionOptions, principal_face};
-use crate::mesh::{HexMesh, NodeId, Tags};
+use crate::mesh::{HexMesh, NodeId};
 use crate::solid::{Curve, SolidModel, SurfaceClass};
 use crate::{Cancelled, Monitor, Stage, parallel};
 
@@ -100,7 +100,7 @@ pub fn swept(
     let near = parallel::try_filter(hexes, monitor, is_near)?;
     monitor.checkpoint(SWEEP, 1.0)?;
     let hexes = near.into_iter().map(|k| hex(k as usize)).collect();
-    Ok(without_unused(HexMesh { positions, hexes, tags: Tags::default() }))
+    Ok(without_unused(HexMesh { positions, hexes, ..HexMesh::default() }))
 }
 
 /// The principal face, if so many layers of it are not too many hexes.
@@ -198,7 +198,7 @@ fn without_unused(mesh: HexMesh) -> HexMesh {
     HexMesh {
         positions: in_use.iter().map(|&n| mesh.positions[n]).collect(),
         hexes: mesh.hexes.iter().map(|hex| hex.map(|n| number[n.index()])).collect(),
-        tags: mesh.tags,
+        ..HexMesh::default()
     }
 }
 
