@@ -50,6 +50,16 @@ impl Aabb {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
 
+    /// The square of the distance from `p` to the box; 0 within.
+    pub fn distance_squared(&self, p: Point) -> f64 {
+        (self.min - p).max(p - self.max).max(Point::ZERO).length_squared()
+    }
+
+    /// True if `other` holds all of this closed box.
+    pub fn is_within(&self, other: &Self) -> bool {
+        other.min.cmple(self.min).all() && self.max.cmple(other.max).all()
+    }
+
     /// The box grown by `margin` on every side.
     pub fn grown(&self, margin: f64) -> Self {
         Self { min: self.min - Point::splat(margin), max: self.max + Point::splat(margin) }

@@ -16,6 +16,7 @@ pub mod quality;
 mod tags;
 pub mod topology;
 mod volume;
+mod weld;
 
 pub use boundary_groups::BoundaryGroups;
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
@@ -32,3 +33,4 @@ pub use quad::QuadMesh;
 pub use tags::{TagSet, Tags};
 pub use topology::Edges;
 pub use volume::{Volumes, hex_volume};
+pub use weld::first_of_same;

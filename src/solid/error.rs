@@ -49,6 +49,19 @@ pub enum SolidError {
         /// The faces there.
         faces: Vec<FaceId>,
     },
+    /// Parts of the surface go through one another, or lie on one another.
+    #[error(
+        "the surface crosses or touches itself in {pairs} pairs of triangles, the first at {at} of the faces {} and {}; \
+         unite the parts, or move them apart", .faces[0], .faces[1]
+    )]
+    SelfIntersection {
+        /// How many pairs of triangles.
+        pairs: usize,
+        /// A place of the first.
+        at: Point,
+        /// The faces there.
+        faces: [FaceId; 2],
+    },
     /// The surface has one side only.
     #[error(
         "the surface at {at} (face {face}) has no inside: it is one-sided, like a Moebius strip; model it again"

@@ -18,6 +18,7 @@
 //! ```
 
 mod class;
+mod crossing;
 mod curves;
 mod entities;
 mod error;
@@ -32,7 +33,7 @@ mod surfaces;
 pub use entities::{Arm, Corner, CornerId, Curve, CurveId, Surface, SurfaceClass, SurfaceId};
 pub use error::SolidError;
 pub use model::SolidModel;
-pub use options::{SolidOptions, SolidReport};
+pub use options::{FilledHole, SolidOptions, SolidReport};
 pub use search::{CurveFoot, Foot};
 
 #[cfg(test)]

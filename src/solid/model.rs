@@ -1,25 +1,26 @@
 //! The solid and what can be asked of it.
 
+use super::crossing::{Crossing, crossings};
 use super::curves::{CurveGraph, curve_graph};
 use super::entities::{Corner, Curve, CurveId, Surface, SurfaceId};
 use super::error::SolidError;
-use super::features::feature_edges;
-use super::import::import;
+use super::features::{drop_noise, sharp_edges};
+use super::import::{Imported, import};
 use super::options::{SolidOptions, SolidReport};
-use super::search::{CurveFoot, CurveSearch, Foot, TriangleSearch, pseudo_normal, vertex_normals};
+use super::search::{CurveFoot, CurveSearch, Foot, Sides, TriangleSearch};
 use super::shell::Shell;
-use super::surfaces::{components, flood, surfaces};
+use super::surfaces::{flood, surfaces};
 use crate::geometry::{Aabb, Point, area_vector};
-use crate::mesh::PolygonMesh;
+use crate::mesh::{FaceId, PolygonMesh};
 use crate::{Monitor, Stage, parallel};
 
 /// A solid by its boundary: a closed surface of triangles that look outward, in surfaces that meet at curves, which meet
-/// at corners.
+/// at corners. There may be several disjoint bodies, and voids within them.
 #[derive(Debug)]
 pub struct SolidModel {
-    shell: Shell,
+    parts: Parts,
     normals: Vec<Point>,
-    vertex_normals: Vec<Point>,
+    sides: Sides,
     surface_of: Vec<SurfaceId>,
     corners: Vec<Corner>,
     curves: Vec<Curve>,
@@ -30,9 +31,21 @@ pub struct SolidModel {
     by_curve: Vec<CurveSearch>,
 }
 
+/// What a model is made of.
+#[derive(Debug)]
+struct Parts {
+    shell: Shell,
+    /// For each half-edge whether it is part of a curve.
+    is_feature: Vec<bool>,
+    /// The body of each triangle.
+    body_of: Vec<u32>,
+    /// Degrees: where a curve turns by more it has a corner.
+    corner_angle: f64,
+}
+
 impl SolidModel {
-    /// Reading the surface and mending it.
-    pub const IMPORT: Stage = Stage("solid");
+    /// Reading the surface, mending it and finding its features.
+    pub const STAGE: Stage = Stage("solid");
 
     /// The solid inside a closed surface of polygons.
     ///
@@ -45,58 +58,85 @@ impl SolidModel {
     ) -> Result<(Self, SolidReport), SolidError> {
         options.check()?;
         let mut report = SolidReport::default();
-        monitor.checkpoint(Self::IMPORT, 0.0)?;
-        let shell = import(surface, &mut report, monitor)?;
-        monitor.checkpoint(Self::IMPORT, 0.5)?;
-        let normals = parallel::collect(shell.mesh.triangles.len(), |t| {
-            area_vector(&shell.mesh.at(t)).normalize_or_zero()
-        });
-        let is_feature = feature_edges(&shell, &normals, options.feature_angle);
-        let surface_of = flood(&shell, &is_feature);
+        monitor.checkpoint(Self::STAGE, 0.0)?;
+        let Imported { shell, tagged, body_of, face_of, tolerance } =
+            import(surface, options, &mut report, monitor)?;
+        monitor.checkpoint(Self::STAGE, 0.3)?;
+        refuse_crossings(&shell, &face_of, tolerance, monitor)?;
+        monitor.checkpoint(Self::STAGE, 0.6)?;
+        let mut is_feature = sharp_edges(&shell, &normals(&shell), options.feature_angle);
+        is_feature.iter_mut().zip(&tagged).for_each(|(is_feature, tagged)| *is_feature |= tagged);
+        if let Some(length) = options.edge_length {
+            report.noise_edges = drop_noise(&shell, &mut is_feature, &tagged, length);
+        }
+        let solid = Self::of_parts(Parts { shell, is_feature, body_of, corner_angle: options.corner_angle });
+        monitor.checkpoint(Self::STAGE, 1.0)?;
+        solid.count(&mut report);
+        Ok((solid, report))
+    }
+
+    fn of_parts(parts: Parts) -> Self {
+        let shell = &parts.shell;
+        let normals = normals(shell);
+        let surface_of = flood(shell, &parts.is_feature);
         let CurveGraph { corners, curves } =
-            curve_graph(&shell, &normals, &is_feature, &surface_of, options.corner_angle);
-        let body_of = components(&shell);
-        let surfaces = surfaces(&shell, &surface_of, &body_of, &curves);
-        monitor.checkpoint(Self::IMPORT, 0.75)?;
+            curve_graph(shell, &normals, &parts.is_feature, &surface_of, parts.corner_angle);
+        let surfaces = surfaces(shell, &surface_of, &parts.body_of, &curves);
         let points_of =
             |c: &Curve| c.vertices.iter().map(|&v| shell.mesh.points[v as usize]).collect::<Vec<_>>();
-        let solid = Self {
-            all: TriangleSearch::new(&shell, 0..shell.mesh.triangles.len()),
+        Self {
+            all: TriangleSearch::new(shell, 0..shell.mesh.triangles.len()),
             by_surface: parallel::collect(surfaces.len(), |s| {
-                TriangleSearch::new(&shell, surfaces[s].triangles.iter().map(|&t| t as usize))
+                TriangleSearch::new(shell, surfaces[s].triangles.iter().map(|&t| t as usize))
             }),
             by_curve: parallel::collect(curves.len(), |c| CurveSearch::new(points_of(&curves[c]))),
-            vertex_normals: vertex_normals(&shell, &normals),
+            sides: Sides::new(shell, &normals),
             bounds: Aabb::around(&shell.mesh.points),
-            shell,
+            parts,
             normals,
             surface_of,
             corners,
             curves,
             surfaces,
-        };
-        monitor.checkpoint(Self::IMPORT, 1.0)?;
-        solid.count(&mut report);
-        Ok((solid, report))
+        }
+    }
+
+    /// One of the disjoint bodies as a solid of its own, with its voids and features.
+    pub fn body(&self, body: u32) -> Self {
+        let Parts { shell, is_feature, body_of, corner_angle } = &self.parts;
+        let kept: Vec<usize> = (0..body_of.len()).filter(|&t| body_of[t] == body).collect();
+        let part = shell.part(&kept);
+        Self::of_parts(Parts {
+            is_feature: kept.iter().flat_map(|&t| is_feature[3 * t..3 * t + 3].iter().copied()).collect(),
+            body_of: vec![0; kept.len()],
+            shell: part,
+            corner_angle: *corner_angle,
+        })
+    }
+
+    /// Number of disjoint bodies.
+    pub fn body_count(&self) -> usize {
+        self.parts.body_of.iter().max().map_or(0, |&b| b as usize + 1)
     }
 
     fn count(&self, report: &mut SolidReport) {
         report.points = self.points().len();
         report.triangles = self.triangles().len();
-        report.bodies = self.surfaces.iter().map(|s| s.body as usize + 1).max().unwrap_or(0);
+        report.bodies = self.body_count();
         report.corners = self.corners.len();
         report.curves = self.curves.len();
         report.surfaces = self.surfaces.len();
+        report.euler = self.euler_number();
     }
 
     /// Coordinates of the vertices.
     pub fn points(&self) -> &[Point] {
-        &self.shell.mesh.points
+        &self.parts.shell.mesh.points
     }
 
     /// The vertices of each triangle, counter-clockwise seen from outside.
     pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.shell.mesh.triangles
+        &self.parts.shell.mesh.triangles
     }
 
     /// The outward unit normal of each triangle; zero if it has no area.
@@ -106,17 +146,17 @@ impl SolidModel {
 
     /// The outward unit normal at vertex `v`: of the triangles around, by their angles there.
     pub fn normal_at(&self, v: u32) -> Point {
-        self.vertex_normals[v as usize].normalize_or_zero()
+        self.sides.normal_at(v)
     }
 
     /// The corners of a triangle.
     pub fn corners_of(&self, triangle: usize) -> [Point; 3] {
-        self.shell.mesh.at(triangle)
+        self.parts.shell.mesh.at(triangle)
     }
 
     /// The triangle on the other side of an edge: `side` runs from the triangle's corner `side` to the next.
     pub fn across(&self, triangle: usize, side: usize) -> u32 {
-        self.shell.twins[3 * triangle + side] / 3
+        self.parts.shell.twins[3 * triangle + side] / 3
     }
 
     /// The surface of a triangle.
@@ -151,7 +191,22 @@ impl SolidModel {
 
     /// The Euler characteristic of the boundary: vertices - edges + triangles; 2 - 2 genus for each closed surface.
     pub fn euler_number(&self) -> i64 {
-        self.points().len() as i64 - self.shell.len() as i64 / 2 + self.triangles().len() as i64
+        self.points().len() as i64 - self.parts.shell.len() as i64 / 2 + self.triangles().len() as i64
+    }
+
+    /// The volume inside.
+    pub fn volume(&self) -> f64 {
+        let origin = self.bounds.center();
+        let six = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| self.points()[v as usize] - origin);
+            a.dot(b.cross(c))
+        };
+        self.triangles().iter().map(six).sum::<f64>() / 6.0
+    }
+
+    /// The area of the boundary.
+    pub fn area(&self) -> f64 {
+        self.surfaces.iter().map(|s| s.area).sum()
     }
 
     /// The point of the boundary nearest to `p`.
@@ -179,13 +234,27 @@ impl SolidModel {
     /// How far `p` is from the boundary; negative inside.
     pub fn signed_distance(&self, p: Point) -> f64 {
         let found = self.all.nearest(p);
-        let normal = pseudo_normal(&self.shell, &self.normals, &self.vertex_normals, found.triangle, p);
-        let away = p - found.point;
-        away.length().copysign(away.dot(normal))
+        self.sides.signed(&self.parts.shell, &self.normals, found.triangle, found.point, p)
     }
 
     /// Is `p` inside?
     pub fn contains(&self, p: Point) -> bool {
         self.signed_distance(p) < 0.0
     }
+}
+
+fn normals(shell: &Shell) -> Vec<Point> {
+    parallel::collect(shell.mesh.triangles.len(), |t| area_vector(&shell.mesh.at(t)).normalize_or_zero())
+}
+
+fn refuse_crossings(
+    shell: &Shell,
+    face_of: &[FaceId],
+    tolerance: f64,
+    monitor: &dyn Monitor,
+) -> Result<(), SolidError> {
+    let all = crossings(shell, tolerance, monitor)?;
+    let Some(&Crossing { triangles, at }) = all.first() else { return Ok(()) };
+    let faces = triangles.map(|t| face_of[t as usize]);
+    Err(SolidError::SelfIntersection { pairs: all.len(), at, faces })
 }

@@ -1,7 +1,9 @@
 //! What may be asked for when a solid is made, and what is said of it.
 
-use super::error::SolidError;
 use serde::{Deserialize, Serialize};
+
+use super::error::SolidError;
+use crate::geometry::Point;
 
 /// How a surface becomes a solid.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -11,24 +13,41 @@ pub struct SolidOptions {
     pub feature_angle: f64,
     /// Degrees: where a curve turns by more from one edge to the next it has a corner.
     pub corner_angle: f64,
+    /// Are borders of groups, objects and materials features, and polylines and creases of the file?
+    pub tags: bool,
+    /// The edge length of the mesh to come. If it is given, features are noise and left out that end within a surface
+    /// and are shorter, and connected sets of features that are shorter than twice that, unless the file marks them.
+    pub edge_length: Option<f64>,
+    /// Holes are filled that fit into a box whose diagonal is this share of that of the surface's box.
+    pub hole_size: f64,
 }
 
 impl Default for SolidOptions {
     fn default() -> Self {
-        Self { feature_angle: 35.0, corner_angle: 50.0 }
+        Self { feature_angle: 35.0, corner_angle: 50.0, tags: true, edge_length: None, hole_size: 0.02 }
     }
 }
 
 impl SolidOptions {
     /// Says what is out of range.
     pub(super) fn check(&self) -> Result<(), SolidError> {
-        let angle = |option, value: f64| {
-            let wanted = "more than 0 and less than 180 degrees";
-            let is_right = value > 0.0 && value < 180.0;
+        let check = |option, value: f64, is_right: bool, wanted| {
             is_right.then_some(()).ok_or(SolidError::Option { option, value, wanted })
         };
-        angle("the feature angle", self.feature_angle)?;
-        angle("the corner angle", self.corner_angle)
+        for (option, value) in
+            [("the feature angle", self.feature_angle), ("the corner angle", self.corner_angle)]
+        {
+            check(option, value, value > 0.0 && value < 180.0, "more than 0 and less than 180 degrees")?;
+        }
+        let length = self.edge_length.unwrap_or(1.0);
+        check("the edge length", length, length > 0.0 && length.is_finite(), "a positive number")?;
+        let hole = self.hole_size;
+        check(
+            "the size of holes to fill",
+            hole,
+            (0.0..=1.0).contains(&hole),
+            "a share of the diagonal, 0 to 1",
+        )
     }
 }
 
@@ -36,24 +55,51 @@ impl SolidOptions {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct SolidReport {
-    /// Points that were one with another.
+    /// Points with the same coordinates as others, which they were welded to.
     pub welded_points: usize,
+    /// Points closer to others than a millionth of the diagonal, which they were welded to.
+    pub close_points: usize,
     /// Triangles that were dropped because they had a point twice.
     pub degenerate_triangles: usize,
+    /// Triangles that were dropped because others were the same.
+    pub duplicate_triangles: usize,
+    /// Triangles that were dropped in pairs that lay on each other and looked opposite ways: walls within the solid.
+    pub wall_triangles: usize,
+    /// Holes that were filled.
+    pub filled_holes: Vec<FilledHole>,
     /// Triangles that were turned around.
     pub turned_triangles: usize,
+    /// Triangles without height whose longest edge was flipped.
+    pub flipped_triangles: usize,
     /// Points at which several fans of triangles met; each fan has a point of its own now.
     pub split_points: usize,
-    /// Points, triangles and bodies of the solid.
+    /// Edges of polylines and creases of the file that are no edges of the surface.
+    pub unmatched_edges: usize,
+    /// Feature edges that were taken for noise.
+    pub noise_edges: usize,
+    /// Points of the solid.
     pub points: usize,
     /// Triangles of the solid.
     pub triangles: usize,
     /// Disjoint bodies.
     pub bodies: usize,
+    /// Voids within bodies.
+    pub voids: usize,
     /// Corners.
     pub corners: usize,
     /// Curves.
     pub curves: usize,
     /// Surfaces.
     pub surfaces: usize,
+    /// The Euler characteristic of the boundary.
+    pub euler: i64,
+}
+
+/// A hole that was filled.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FilledHole {
+    /// The middle of its box.
+    pub at: Point,
+    /// Edges of its rim.
+    pub edges: usize,
 }

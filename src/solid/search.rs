@@ -84,43 +84,50 @@ impl CurveSearch {
     }
 }
 
-/// The sum of the normals of the triangles around each vertex, weighted by their angles there.
-pub(super) fn vertex_normals(shell: &Shell, normals: &[Point]) -> Vec<Point> {
-    let out = shell.out_of();
-    parallel::collect(out.len(), |v| {
-        let share = |k: u32| {
-            let (a, b) = (shell.along(k), -shell.along(previous(k)));
-            normals[triangle_of(k)] * libm::atan2(a.cross(b).length(), a.dot(b))
-        };
-        shell.fan(out[v]).map(share).sum()
-    })
+/// Tells on which side of a shell points lie.
+#[derive(Debug)]
+pub(super) struct Sides {
+    /// The sum of the normals of the triangles around each vertex, weighted by their angles there.
+    vertex_normals: Vec<Point>,
 }
 
-/// The pseudo-normal at the point of triangle `t` that is nearest to `p`, of any length.
-pub(super) fn pseudo_normal(
-    shell: &Shell,
-    normals: &[Point],
-    vertex_normals: &[Point],
-    t: usize,
-    p: Point,
-) -> Point {
-    let weights = triangle_weights(p, shell.mesh.at(t));
-    let first = 3 * t as u32;
-    match weights.map(|w| w > 0.0) {
-        [true, true, true] => normals[t],
-        [true, false, false] => vertex_normals[shell.from(first) as usize],
-        [false, true, false] => vertex_normals[shell.from(next(first)) as usize],
-        [false, false, true] => vertex_normals[shell.from(previous(first)) as usize],
-        [a, b, _] => {
-            let k = first
-                + if a && b {
-                    0
-                } else if b {
-                    1
-                } else {
-                    2
-                };
-            normals[t] + normals[triangle_of(shell.twin(k))]
+impl Sides {
+    pub fn new(shell: &Shell, normals: &[Point]) -> Self {
+        let out = shell.out_of();
+        let vertex_normals = parallel::collect(out.len(), |v| {
+            let share = |k: u32| {
+                let (a, b) = (shell.along(k), -shell.along(previous(k)));
+                normals[triangle_of(k)] * libm::atan2(a.cross(b).length(), a.dot(b))
+            };
+            shell.fan(out[v]).map(share).sum()
+        });
+        Self { vertex_normals }
+    }
+
+    /// The outward unit normal at a vertex.
+    pub fn normal_at(&self, v: u32) -> Point {
+        self.vertex_normals[v as usize].normalize_or_zero()
+    }
+
+    /// How far `p` is from the shell, negative inside, if the nearest point is `foot` on triangle `t`.
+    pub fn signed(&self, shell: &Shell, normals: &[Point], t: usize, foot: Point, p: Point) -> f64 {
+        let away = p - foot;
+        away.length().copysign(away.dot(self.pseudo_normal(shell, normals, t, p)))
+    }
+
+    /// The pseudo-normal, of any length, where triangle `t` is nearest to `p`.
+    fn pseudo_normal(&self, shell: &Shell, normals: &[Point], t: usize, p: Point) -> Point {
+        let first = 3 * t as u32;
+        let of_edge = |k: u32| normals[t] + normals[triangle_of(shell.twin(k))];
+        let of_vertex = |k: u32| self.vertex_normals[shell.from(k) as usize];
+        match triangle_weights(p, shell.mesh.at(t)).map(|w| w > 0.0) {
+            [true, true, true] => normals[t],
+            [true, true, false] => of_edge(first),
+            [false, true, true] => of_edge(next(first)),
+            [true, false, true] => of_edge(previous(first)),
+            [true, false, false] => of_vertex(first),
+            [false, true, false] => of_vertex(next(first)),
+            [false, false, _] => of_vertex(previous(first)),
         }
     }
 }

@@ -94,6 +94,28 @@ impl Shell {
         Self { mesh, twins }
     }
 
+    /// The shell of some of the triangles, ascending, to which all their neighbours belong.
+    pub fn part(&self, kept: &[usize]) -> Self {
+        let mut place = vec![NONE; self.mesh.triangles.len()];
+        let mut vertex = vec![NONE; self.mesh.points.len()];
+        let mut part = Self::default();
+        for (i, &t) in kept.iter().enumerate() {
+            place[t] = i as u32;
+            part.mesh.triangles.push(self.mesh.triangles[t].map(|v| {
+                let new = &mut vertex[v as usize];
+                if *new == NONE {
+                    *new = part.mesh.points.len() as u32;
+                    part.mesh.points.push(self.mesh.points[v as usize]);
+                }
+                *new
+            }));
+        }
+        let twin = |k: u32| 3 * place[triangle_of(k)] + k % 3;
+        part.twins =
+            kept.iter().flat_map(|&t| (0..3).map(move |i| 3 * t + i)).map(|k| twin(self.twins[k])).collect();
+        part
+    }
+
     /// Number of half-edges.
     pub fn len(&self) -> usize {
         self.twins.len()
@@ -131,6 +153,31 @@ impl Shell {
             at = Some(self.around(now)).filter(|&after| after != k);
             Some(now)
         })
+    }
+
+    /// Turns the edge of half-edge `k` around in the four points of its two triangles.
+    ///
+    /// ```text
+    ///       c                 c
+    ///      / \               /|\       The triangles a b c of k and b a d of its twin become a d c and
+    ///     / t \             / | \      b c d. No edge may go from c to d before.
+    ///    a--k->b    ->     a t|u b
+    ///     \ u /             \ | /
+    ///      \ /               \|/
+    ///       d                 d
+    /// ```
+    pub fn flip(&mut self, k: u32) {
+        let l = self.twin(k);
+        let [a, b, c, d] = [k, l, previous(k), previous(l)].map(|h| self.from(h));
+        let [bc, ca, ad, db] = [next(k), previous(k), next(l), previous(l)].map(|h| self.twin(h));
+        let (t, u) = (triangle_of(k), triangle_of(l));
+        self.mesh.triangles[t] = [a, d, c];
+        self.mesh.triangles[u] = [b, c, d];
+        let (t, u) = (3 * t as u32, 3 * u as u32);
+        for (h, other) in [(t, ad), (t + 1, u + 1), (t + 2, ca), (u, bc), (u + 2, db)] {
+            self.twins[h as usize] = other;
+            self.twins[other as usize] = h;
+        }
     }
 
     /// A half-edge out of each vertex: its least.

@@ -75,3 +75,32 @@ pub(crate) fn cylinder(n: u32) -> PolygonMesh {
     }
     mesh
 }
+
+/// Both surfaces in one.
+pub(crate) fn both(mut a: PolygonMesh, b: &PolygonMesh) -> PolygonMesh {
+    let first = a.positions.len() as u32;
+    a.positions.extend(&b.positions);
+    b.faces().for_each(|face| a.push_face(face.iter().map(|n| NodeId(n.0 + first))));
+    a
+}
+
+/// The surface with its points elsewhere.
+pub(crate) fn moved(mut surface: PolygonMesh, to: impl Fn(Point) -> Point) -> PolygonMesh {
+    surface.positions.iter_mut().for_each(|p| *p = to(*p));
+    surface
+}
+
+/// The surface with its faces turned around.
+pub(crate) fn turned(surface: &PolygonMesh) -> PolygonMesh {
+    let mut turned = PolygonMesh { positions: surface.positions.clone(), ..PolygonMesh::default() };
+    surface.faces().for_each(|face| turned.push_face(face.iter().rev().copied()));
+    turned
+}
+
+/// The surface of triangles or polygons over `positions`.
+pub(crate) fn polygons<const N: usize>(positions: &[[f64; 3]], faces: &[[u32; N]]) -> PolygonMesh {
+    let mut mesh =
+        PolygonMesh { positions: positions.iter().copied().map(Point::from).collect(), ..Default::default() };
+    faces.iter().for_each(|face| mesh.push_face(face.map(NodeId)));
+    mesh
+}

@@ -11,5 +11,6 @@ mod optimize;
 mod refine;
 mod scene;
 mod sizing;
+mod solid;
 #[path = "../fixtures/valid.rs"]
 mod valid;

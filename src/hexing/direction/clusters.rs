@@ -6,15 +6,19 @@
 //! 3. Planes, and the axes of extruded surfaces, are clustered from the largest down; the two ends of a direction are one.
 
 use crate::geometry::{Point, area_vector};
-use crate::solid::{SolidModel, SurfaceClass};
+use crate::solid::{SolidModel, Surface, SurfaceClass};
 
 /// The cosine of 0.1 degrees: normals that differ by less are of one plane.
 const COPLANAR: f64 = 1.0 - 1.5e-6;
 /// The cosine of 2 degrees: directions that differ by less are one.
 const PARALLEL: f64 = 0.999_390_827;
+/// The sine of 2 degrees: directions whose dot product is less are perpendicular.
+const PERPENDICULAR: f64 = 0.034_899_497;
 /// A facet so many times as large as any that it goes over into smoothly is a plane between fillets. A curved surface has
 /// strips of about one width.
 const WIDER: f64 = 4.0;
+/// A surface whose mean normal is shorter than this looks everywhere.
+const CLEAR: f64 = 0.1;
 /// So many of the largest planes are clustered: what smaller ones say comes to little, and the time may go with the
 /// square of their number.
 const PLANES: usize = 4096;
@@ -29,6 +33,11 @@ pub(super) struct Weighted {
 /// Are two unit directions one, up to the sign?
 pub(super) fn is_parallel(a: Point, b: Point) -> bool {
     a.dot(b).abs() > PARALLEL
+}
+
+/// Are two unit directions perpendicular?
+pub(super) fn is_perpendicular(a: Point, b: Point) -> bool {
+    a.dot(b).abs() < PERPENDICULAR
 }
 
 /// The planes of the boundary, the largest first: facets that are no strips of a curved surface.
@@ -85,13 +94,23 @@ fn facets(solid: &SolidModel) -> (Vec<u32>, Vec<Point>) {
     (facet_of, facets)
 }
 
-/// The axes of the extruded surfaces, the largest first.
+/// The axes of the extruded surfaces.
 pub(super) fn axes(solid: &SolidModel) -> Vec<Weighted> {
-    let axis = |s: &crate::solid::Surface| match s.class {
+    let axis = |s: &Surface| match s.class {
         SurfaceClass::Cylindrical { axis } => Some(Weighted { direction: axis, area: s.area }),
         _ => None,
     };
     solid.surfaces().iter().filter_map(axis).collect()
+}
+
+/// The mean normals of the surfaces that are neither planar nor extruded, if they have one.
+pub(super) fn means(solid: &SolidModel) -> Vec<Weighted> {
+    let mean = |s: &Surface| {
+        let sum: Point = s.triangles.iter().map(|&t| area_vector(&solid.corners_of(t as usize))).sum();
+        let is_one = s.class == SurfaceClass::General && sum.length() > CLEAR * s.area;
+        is_one.then(|| Weighted { direction: sum.normalize(), area: s.area })
+    };
+    solid.surfaces().iter().filter_map(mean).collect()
 }
 
 /// Clusters of directions, the largest first. A cluster has the direction of its largest member.

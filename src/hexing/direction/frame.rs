@@ -2,12 +2,10 @@
 
 use glam::DMat3;
 
-use super::clusters::{Weighted, axes, clusters, is_parallel, planes};
+use super::clusters::{Weighted, axes, clusters, is_parallel, is_perpendicular, planes};
 use crate::geometry::{Frame, Point};
 use crate::solid::SolidModel;
 
-/// The sine of 2 degrees: directions whose dot product is less are perpendicular.
-const PERPENDICULAR: f64 = 0.034_899_497;
 /// So many of the largest clusters are tried as an axis.
 const TRIED: usize = 16;
 /// The world's axes are kept unless others align so large a share of the area more: what organic shapes have aligned
@@ -41,8 +39,7 @@ fn frames_about(z: Point, all: &[Weighted]) -> Vec<DMat3> {
         let x = (x - z * z.dot(x)).normalize();
         DMat3::from_cols(x, z.cross(x), z)
     };
-    let perpendicular =
-        all.iter().take(TRIED).map(|c| c.direction).filter(|x| x.dot(z).abs() < PERPENDICULAR);
+    let perpendicular = all.iter().take(TRIED).map(|c| c.direction).filter(|x| is_perpendicular(*x, z));
     let world = [Point::X, Point::Y, Point::Z].into_iter().find(|x| x.dot(z).abs() < 0.9);
     perpendicular.chain(world).map(across).collect()
 }

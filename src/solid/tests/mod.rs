@@ -1,3 +1,9 @@
+mod bad;
+mod bodies;
+mod features;
+#[cfg(not(target_arch = "wasm32"))]
+mod motions;
+
 use super::testing::{cuboid, cylinder, ell, holed, solid, voxels};
 use super::*;
 use crate::Silent;
@@ -63,6 +69,14 @@ fn prisms_have_the_features_that_one_sees() {
     check_counts(&cylinder(6), (12, 18, 8, 2));
 }
 
+/// The solid inside a surface with other options than the usual, and what is said of it.
+#[track_caller]
+fn made(surface: &PolygonMesh, options: &SolidOptions) -> (SolidModel, SolidReport) {
+    let made = SolidModel::new(surface, options, &Silent).unwrap_or_else(|error| panic!("{error}"));
+    check_graph(&made.0);
+    made
+}
+
 #[test]
 fn faces_are_turned_outward() {
     let mut inside_out = PolygonMesh { positions: holed().positions, ..PolygonMesh::default() };
@@ -122,34 +136,4 @@ fn curves_and_surfaces_have_nearest_points_of_their_own() {
         assert_eq!(foot.tangent, (b - a) / 2.0);
         assert!((foot.point - p.clamp(a.min(b), a.max(b))).length() < 1e-15);
     }
-}
-
-#[track_caller]
-fn check_refused(surface: &PolygonMesh, expected: &str) {
-    let error = SolidModel::new(surface, &SolidOptions::default(), &Silent).map(|_| ()).unwrap_err();
-    assert_eq!(error.to_string(), expected);
-}
-
-#[test]
-fn what_bounds_no_solid_is_refused_with_its_place() {
-    check_refused(
-        &PolygonMesh::default(),
-        "the surface has no faces; give a closed surface of triangles or polygons",
-    );
-    let mut triangle = PolygonMesh { positions: vec![Point::ZERO, Point::X, Point::Y], ..Default::default() };
-    triangle.push_face([0, 1, 2].map(NodeId));
-    check_refused(
-        &triangle,
-        "the surface is open: 3 edges belong to one face only, the first at [0.5, 0, 0] of face 0; close the holes",
-    );
-    let touching = voxels([2, 2, 1], |[x, y, _]| x == y);
-    check_refused(
-        &touching,
-        "1 edges belong to more than two faces, the first at [1, 1, 0.5] of the faces 1, 3, 6, 8; \
-         separate the parts that touch there, or unite them",
-    );
-    let mut nan = cuboid([1, 1, 1]);
-    nan.positions[3].y = f64::NAN;
-    let error = SolidModel::new(&nan, &SolidOptions::default(), &Silent).map(|_| ()).unwrap_err();
-    assert!(matches!(error, SolidError::Broken(_)), "{error}");
 }
