@@ -21,7 +21,7 @@
 //! | [`optimize`] | untangling and smoothing of hexes |
 //! | [`refine`] | conforming refinement (Ebeida, Patney, Owens, Mestreau) |
 //! | [`hexing`] | all-hex meshes of solids |
-//! | [`io`] | bytes in, bytes out: OBJ, VTU, VTK, MSH, INP, MEDIT, GLB |
+//! | [`io`] | bytes in, bytes out: OBJ, STL, VTU, VTK, MSH, INP, MEDIT, GLB |
 //! | [`scene`] | meshes as f32 draw buffers; no GPU |
 
 pub mod geometry;

@@ -5,6 +5,8 @@
 pub enum Format {
     /// Wavefront OBJ.
     Obj,
+    /// STL, ASCII or binary (read only).
+    Stl,
     /// VTK XML unstructured grid.
     Vtu,
     /// Legacy VTK.
@@ -21,13 +23,14 @@ pub enum Format {
 
 impl Format {
     /// Every format.
-    pub const ALL: [Self; 7] =
-        [Self::Obj, Self::Vtu, Self::Vtk, Self::Msh, Self::Inp, Self::Medit, Self::Glb];
+    pub const ALL: [Self; 8] =
+        [Self::Obj, Self::Stl, Self::Vtu, Self::Vtk, Self::Msh, Self::Inp, Self::Medit, Self::Glb];
 
     /// The name that front ends use, which is also the usual file extension.
     pub fn name(self) -> &'static str {
         match self {
             Self::Obj => "obj",
+            Self::Stl => "stl",
             Self::Vtu => "vtu",
             Self::Vtk => "vtk",
             Self::Msh => "msh",

@@ -9,6 +9,7 @@ pub mod inp;
 pub mod medit;
 pub mod msh;
 pub mod obj;
+pub mod stl;
 pub mod vtk;
 pub mod vtu;
 
@@ -39,6 +40,7 @@ pub use sniff::detect;
 pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
     match format {
         Format::Obj => obj::read(bytes),
+        Format::Stl => stl::read(bytes),
         Format::Vtu => vtu::read(bytes),
         Format::Vtk => vtk::read(bytes),
         Format::Msh => msh::read(bytes),
@@ -57,6 +59,12 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
 pub fn write(document: &Document, format: Format) -> Result<Vec<u8>, WriteError> {
     match format {
         Format::Obj => obj::write(document),
+        Format::Stl => Err(WriteError {
+            format,
+            code: "format-not-written",
+            message: "STL files are only read, they do not hold how faces hang together: write OBJ or another format"
+                .into(),
+        }),
         Format::Vtu => vtu::write(document),
         Format::Vtk => vtk::write(document),
         Format::Msh => msh::write(document),

@@ -1,6 +1,6 @@
 //! What a file is, told by its first bytes.
 
-use super::{Format, ReadError};
+use super::{Format, ReadError, stl};
 
 /// Bytes that a kind of file starts with, and what to call it.
 const STARTS: &[(&[u8], &str)] = &[
@@ -68,9 +68,15 @@ pub fn detect(bytes: &[u8]) -> Result<Format, ReadError> {
 }
 
 fn known_format(bytes: &[u8]) -> Option<Format> {
+    if stl::is_binary(bytes) {
+        return Some(Format::Stl);
+    }
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start();
     if text.starts_with(b"# vtk DataFile") {
         return Some(Format::Vtk);
+    }
+    if stl::is_ascii(text) {
+        return Some(Format::Stl);
     }
     if text.starts_with(b"glTF") {
         return Some(Format::Glb);
@@ -94,7 +100,7 @@ fn known_format(bytes: &[u8]) -> Option<Format> {
 pub(super) fn not_obj(bytes: &[u8]) -> Option<&'static str> {
     let text = &bytes[bytes.iter().take(64).take_while(|b| b.is_ascii_whitespace()).count()..];
     let known = STARTS.iter().find(|(start, _)| text.starts_with(start)).map(|&(_, name)| name);
-    known.or_else(|| is_binary_stl(bytes).then_some("a binary STL file"))
+    known.or_else(|| stl::is_binary(bytes).then_some("a binary STL file"))
 }
 
 /// Names the encoding if `bytes` are text in UTF-16 or UTF-32, with a byte order mark or without.
@@ -107,11 +113,4 @@ pub(super) fn wide_text(bytes: &[u8]) -> Option<&'static str> {
         }
         _ => None,
     }
-}
-
-/// A binary STL file is 80 free bytes, a count, and 50 bytes a triangle.
-fn is_binary_stl(bytes: &[u8]) -> bool {
-    let Some(count) = bytes.get(80..84) else { return false };
-    let count = u32::from_le_bytes([count[0], count[1], count[2], count[3]]);
-    count > 0 && bytes.len() as u64 == 84 + 50 * u64::from(count)
 }

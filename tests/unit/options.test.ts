@@ -9,6 +9,7 @@ describe('the format of an input', () => {
     [{}, undefined],
     [{ name: 'car.obj' }, 'obj'],
     [{ name: 'Wing.VTU' }, 'vtu'],
+    [{ name: 'part.stl' }, 'stl'],
     [{ name: 'a.b.mesh' }, 'medit'],
     [{ name: 'car.obj', format: 'vtk' as const }, 'vtk'],
     [{ name: 'notes' }, undefined],

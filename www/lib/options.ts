@@ -91,10 +91,10 @@ export interface RefineOptions extends QuadOptions, CallOptions {
 }
 
 /** Formats that are read. */
-export type InputFormat = 'obj' | 'vtu' | 'vtk' | 'msh' | 'inp' | 'medit';
+export type InputFormat = 'obj' | 'stl' | 'vtu' | 'vtk' | 'msh' | 'inp' | 'medit';
 
 /** Formats that are written. */
-export type OutputFormat = InputFormat | 'glb';
+export type OutputFormat = Exclude<InputFormat, 'stl'> | 'glb';
 
 /** Formats of hex meshes that are written; of GLB the boundary alone. */
 export type HexFormat = Exclude<OutputFormat, 'obj'>;
@@ -142,6 +142,7 @@ export type HexInput = FileInput | HexArrays;
 
 const EXTENSIONS: Readonly<Record<string, InputFormat>> = {
   obj: 'obj',
+  stl: 'stl',
   vtu: 'vtu',
   vtk: 'vtk',
   msh: 'msh',

@@ -156,8 +156,8 @@ fn regions_must_be_well_formed() {
 #[test]
 fn extensions_must_be_known() {
     misused(
-        &["refine", "in.obj", "-o", "out.stl"],
-        "out.stl: the extension names no mesh format; use one of .obj,",
+        &["refine", "in.obj", "-o", "out.step"],
+        "out.step: the extension names no mesh format; use one of .obj,",
     );
     misused(&["convert", "in", "-o", "out.obj"], "in: the extension names no mesh format");
 }

@@ -10,4 +10,5 @@ mod groups;
 mod hostile;
 mod mutations;
 mod round_trip;
+mod stl;
 mod worlds;

@@ -6,6 +6,7 @@ use hexmill::io::{AnyMesh, Format, ReadError, inp, medit, msh, vtk, vtu};
 use super::allocation::most_held;
 use super::foreign;
 use super::round_trip::read;
+use super::stl;
 use super::worlds::{document, hex_grid, quad_grid, some_sets};
 use crate::valid::assert_valid;
 
@@ -19,6 +20,8 @@ const PER_COMPRESSED_BYTE: usize = 12_000;
 fn files() -> Vec<(String, Vec<u8>, Format)> {
     let mut files: Vec<(String, Vec<u8>, Format)> =
         foreign::all().map(|(name, bytes, format)| (name.to_owned(), bytes.to_vec(), format)).collect();
+    files.push(("ASCII STL".to_owned(), stl::ascii(&stl::TETRAHEDRON).into_bytes(), Format::Stl));
+    files.push(("binary STL".to_owned(), stl::binary(&stl::TETRAHEDRON), Format::Stl));
     for mesh in [AnyMesh::Quads(quad_grid(3)), AnyMesh::Hexes(hex_grid(2))] {
         let document = document(mesh, some_sets());
         for (format, write) in [

@@ -1,7 +1,7 @@
 //! What is written reads back: the same bits, cells and tags, as far as the format can say them.
 
 use hexmill::geometry::Point;
-use hexmill::io::{AnyMesh, Document, Format, ReadError, inp, medit, msh, vtk, vtu};
+use hexmill::io::{AnyMesh, Document, Format, ReadError, inp, medit, msh, stl, vtk, vtu};
 use hexmill::mesh::{FaceId, HexMesh, NodeId, PolygonMesh, TagSet};
 use proptest::prelude::*;
 
@@ -15,7 +15,7 @@ pub fn through(document: &Document, format: Format) -> Result<Document, ReadErro
         Format::Msh => msh::write(document),
         Format::Inp => inp::write(document),
         Format::Medit => medit::write(document),
-        Format::Obj | Format::Glb => unreachable!("not tested here"),
+        Format::Obj | Format::Stl | Format::Glb => unreachable!("not tested here"),
     };
     read(&bytes.unwrap(), format)
 }
@@ -28,6 +28,7 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
         Format::Msh => msh::read(bytes),
         Format::Inp => inp::read(bytes),
         Format::Medit => medit::read(bytes),
+        Format::Stl => stl::read(bytes),
         Format::Obj | Format::Glb => unreachable!("not tested here"),
     }
 }

@@ -12,6 +12,7 @@ export interface FormatInfo<F extends string> {
 
 export const READABLE: readonly FormatInfo<InputFormat>[] = [
   { format: 'obj', extension: 'obj', label: 'Wavefront OBJ', note: '' },
+  { format: 'stl', extension: 'stl', label: 'STL', note: '' },
   { format: 'vtu', extension: 'vtu', label: 'VTK XML', note: '' },
   { format: 'vtk', extension: 'vtk', label: 'Legacy VTK', note: '' },
   { format: 'medit', extension: 'mesh', label: 'MEDIT', note: '' },

@@ -13,7 +13,7 @@ use super::region::RegionArg;
 
 /// Conforming quad and hex meshes of surfaces and solids, refined where they are wanted finer.
 ///
-/// The format of a file is told by its extension: obj, vtu, vtk, msh, inp, mesh (MEDIT), glb (output only).
+/// The format of a file is told by its extension: obj, stl (input only), vtu, vtk, msh, inp, mesh (MEDIT), glb (output only).
 ///
 /// Exit codes: 0 done; 1 a file or mesh was refused; 2 the command line makes no sense; 130 interrupted.
 #[derive(Debug, Parser)]
