@@ -51,7 +51,7 @@ pub(super) fn capture(
 ) -> Result<Capture, Cancelled> {
     let curves: Vec<CurveId> = network.curves().collect();
     let corridors: BTreeMap<CurveId, Corridor> =
-        curves.iter().copied().zip(corridors(boundary, network, &curves)).collect();
+        curves.iter().copied().zip(corridors(boundary, network, &curves, monitor)?).collect();
     let mut penalties = Penalties::default();
     let (mut known, mut candidates) = (Known::new(), Candidates::new());
     let mut round = 0;

@@ -10,6 +10,7 @@ use super::network::Network;
 use crate::geometry::Point;
 use crate::parallel;
 use crate::solid::{CurveFoot, CurveId};
+use crate::{Cancelled, Monitor};
 
 /// What 1 is in whole numbers: costs are exact.
 pub(super) const UNIT: f64 = 65536.0;
@@ -125,8 +126,13 @@ impl Edge<'_> {
 }
 
 /// The corridors of some curves.
-pub(super) fn corridors(boundary: &Boundary, network: &Network, curves: &[CurveId]) -> Vec<Corridor> {
-    parallel::collect(curves.len(), |k| Corridor::of(boundary, network, curves[k]))
+pub(super) fn corridors(
+    boundary: &Boundary,
+    network: &Network,
+    curves: &[CurveId],
+    monitor: &dyn Monitor,
+) -> Result<Vec<Corridor>, Cancelled> {
+    parallel::try_collect(curves.len(), monitor, |k| Corridor::of(boundary, network, curves[k]))
 }
 
 /// A superset of the nodes within reach of a curve, ascending.
