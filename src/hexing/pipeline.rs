@@ -83,7 +83,11 @@ pub fn hex_solid(
 ) -> Result<HexedSolid, HexingError> {
     validate(options)?;
     monitor.checkpoint(SOLID, 0.0)?;
-    let solid_options = SolidOptions { feature_angle: options.feature_angle, ..SolidOptions::default() };
+    let solid_options = SolidOptions {
+        feature_angle: options.feature_angle,
+        edge_length: Some(options.edge_length),
+        ..SolidOptions::default()
+    };
     let (solid, found) = SolidModel::new(surface, &solid_options, monitor)?;
     monitor.checkpoint(SOLID, 1.0)?;
     let axes = best_frame(&solid).axes();

@@ -4,12 +4,12 @@
 //! [`correspond`] promises what [`Correspondence`] lists, whatever the mesh and the solid. It needs a mesh whose boundary
 //! is a manifold. What the mesh cannot show is given up and said, in [`Reduction`]. The steps:
 //!
-//! 1. Curves too short for the edges are given up, and so contracted to corners where they have two ([`network`]).
+//! 1. Curves too short for the edges are given up, and so contracted to corners where they have two (`network`).
 //! 2. Corners, and some places on closed curves, get nodes; the curves at a corner get edges there, in the cyclic order
-//!    that the solid has them in ([`stops`], [`place`], [`arms`]).
-//! 3. All curves are routed, by negotiation: paths share no nodes ([`corridor`], [`route`]).
-//! 4. Where routing failed, 2 and 3 are repeated with other nodes; at last curves are given up ([`capture`]).
-//! 5. Surfaces are flood fills between the paths ([`label`]).
+//!    that the solid has them in (`stops`, `place`, `arms`).
+//! 3. All curves are routed, by negotiation: paths share no nodes (`corridor`, `route`).
+//! 4. Where routing failed, 2 and 3 are repeated with other nodes; at last curves are given up (`capture`).
+//! 5. Surfaces are flood fills between the paths (`label`).
 //!
 //! Topology is held by construction: the order of edges at nodes is read from the mesh, the order of curves at corners
 //! from the solid's triangles, left and right from orientation. Positions only say which of all that is possible is
