@@ -32,7 +32,7 @@ const SHARP: f64 = 40.0;
 ///
 /// # Panics
 /// If the mesh has node ids out of range.
-pub(super) fn turn_per_length(mesh: &PolygonMesh, monitor: &dyn Monitor) -> Result<Vec<f64>, Cancelled> {
+pub(crate) fn turn_per_length(mesh: &PolygonMesh, monitor: &dyn Monitor) -> Result<Vec<f64>, Cancelled> {
     let edges = Edges::monitored(mesh, monitor)?;
     let uses = EdgeUses::monitored(&edges, monitor)?;
     let normals = parallel::try_collect(mesh.face_count(), monitor, |f| area_normal(mesh, f))?;

@@ -15,6 +15,7 @@ pub use error::{RegionFault, SizingError};
 pub use field::{SizeField, SizeOptions, SizedElement};
 pub use region::{Region, Shape, Target};
 
+pub(crate) use curvature::turn_per_length;
 pub(crate) use field::limit;
 
 #[cfg(all(test, not(target_arch = "wasm32")))]

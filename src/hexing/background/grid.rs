@@ -11,9 +11,9 @@ use glam::DMat3;
 
 use super::lines::{Plane, lines};
 use super::touched::touched;
-use super::volume;
 use crate::geometry::{Aabb, Point};
 use crate::mesh::HexMesh;
+use crate::refine::hex::HexRefineError;
 use crate::solid::{SolidModel, Surface, SurfaceClass};
 use crate::{Cancelled, Monitor, Stage, parallel};
 
@@ -62,6 +62,9 @@ pub enum BackgroundError {
         /// The greatest coordinate, without its sign.
         reach: f64,
     },
+    /// The grid cannot be refined.
+    #[error(transparent)]
+    Refine(HexRefineError),
     /// The monitor asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -74,7 +77,17 @@ impl BackgroundError {
             Self::EdgeLength(_) => "edge-length-out-of-range",
             Self::TooManyHexes { .. } => "too-many-hexes",
             Self::TooFewDigits { .. } => "too-few-digits",
+            Self::Refine(error) => error.code(),
             Self::Cancelled(_) => "cancelled",
+        }
+    }
+}
+
+impl From<HexRefineError> for BackgroundError {
+    fn from(error: HexRefineError) -> Self {
+        match error {
+            HexRefineError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            error => Self::Refine(error),
         }
     }
 }
@@ -90,7 +103,7 @@ const LEAST_STEPS: f64 = 1024.0;
 /// About how many hexes an edge length gives: those in the solid, and three layers at its surface.
 pub fn estimate_hexes(solid: &SolidModel, edge_length: f64) -> f64 {
     let area: f64 = solid.surfaces().iter().map(|surface| surface.area).sum();
-    volume(solid) / (edge_length * edge_length * edge_length) + 3.0 * area / (edge_length * edge_length)
+    solid.volume() / (edge_length * edge_length * edge_length) + 3.0 * area / (edge_length * edge_length)
 }
 
 /// Makes the grid. Nodes and hexes are numbered along the first axis, then the second, then the third. The mesh is a

@@ -1,5 +1,6 @@
 //! The cells of a grid that a surface touches.
 
+use super::pieces::pieces;
 use super::rows::{Rows, Run};
 use crate::geometry::Point;
 use crate::parallel;
@@ -22,7 +23,13 @@ pub(super) fn touched(
     let counts = lines.each_ref().map(|lines| lines.len() as u32 - 1);
     let runs = parallel::try_blocks(triangle_count, BLOCK, monitor, |block| {
         let mut runs = Vec::new();
-        block.for_each(|t| pieces(lines, triangle(t), &mut |cells| runs_of(counts, cells, &mut runs)));
+        let is_small =
+            |piece: &[Point; 3]| cells_around(lines, piece).iter().all(|[from, to]| to - from <= 1);
+        block.for_each(|t| {
+            pieces(triangle(t), is_small, &mut |piece| {
+                runs_of(counts, cells_around(lines, &piece), &mut runs);
+            });
+        });
         // Small triangles touch the same cells again and again.
         runs.sort_unstable();
         runs.dedup();
@@ -37,26 +44,10 @@ const BLOCK: usize = 256;
 /// The least and the greatest cell along each axis.
 type Cells = [[u32; 2]; 3];
 
-/// Calls `take` with the cells of each piece of the triangle.
-fn pieces(lines: &[Vec<f64>; 3], corners: [Point; 3], take: &mut impl FnMut(Cells)) {
-    let mut left = vec![corners];
-    while let Some([a, b, c]) = left.pop() {
-        let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-        let cells: Cells = std::array::from_fn(|i| cells_between(&lines[i], [min[i], max[i]]));
-        if cells.iter().all(|[from, to]| to - from <= 1) {
-            take(cells);
-            continue;
-        }
-        // a-b is the longest edge.
-        let (ab, bc, ca) = (a.distance_squared(b), b.distance_squared(c), c.distance_squared(a));
-        let [a, b, c] = match () {
-            () if ab >= bc && ab >= ca => [a, b, c],
-            () if bc >= ca => [b, c, a],
-            () => [c, a, b],
-        };
-        let middle = a.midpoint(b);
-        left.extend([[a, middle, c], [middle, b, c]]);
-    }
+/// The cells that the box around a triangle touches.
+fn cells_around(lines: &[Vec<f64>; 3], [a, b, c]: &[Point; 3]) -> Cells {
+    let (min, max) = (a.min(*b).min(*c), a.max(*b).max(*c));
+    std::array::from_fn(|i| cells_between(&lines[i], [min[i], max[i]]))
 }
 
 /// The least and the greatest cell that an interval touches.

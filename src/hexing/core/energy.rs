@@ -207,7 +207,7 @@ mod tests {
         let all: Vec<u32> = (0..12).collect();
         for (k, energy) in (0..12).zip([Energy::Clipped, Energy::Paper].into_iter().cycle()) {
             let (center, radius) = (Point::new(0.3 + 0.2 * f64::from(k), 0.4, 0.3), 0.9 + 0.1 * f64::from(k));
-            let distances = Distances::of(&cells, signed(center, radius), &Silent).unwrap();
+            let distances = Distances::of(&cells, signed(center, radius), f64::INFINITY, &Silent).unwrap();
             let feet = feet(&cells, &all, foot(center, radius), &Silent).unwrap();
             let mut inside = vec![false; 12];
             cut(&cells, &distances, energy, &all, foot(center, radius), &mut inside, &Silent).unwrap();
@@ -227,7 +227,7 @@ mod tests {
         for k in 0..6 {
             let (center, radius) =
                 (Point::splat(3.3) + Point::X * 0.1 * f64::from(k), 2.0 + 0.2 * f64::from(k));
-            let distances = Distances::of(&cells, signed(center, radius), &Silent).unwrap();
+            let distances = Distances::of(&cells, signed(center, radius), f64::INFINITY, &Silent).unwrap();
             let depth = distances.depth();
             let cut_of = |sure: f64| {
                 let mut inside: Vec<bool> = depth.iter().map(|&d| d < 0.0).collect();
@@ -244,7 +244,7 @@ mod tests {
     fn terms_are_those_of_the_equations() {
         let mesh = cubes([4.0, 1.0, 1.0]);
         let cells = Cells::of(&mesh, &Silent).unwrap();
-        let distances = Distances::of(&cells, |p| p.x - 2.2, &Silent).unwrap();
+        let distances = Distances::of(&cells, |p| p.x - 2.2, f64::INFINITY, &Silent).unwrap();
         let all = [0, 1, 2, 3];
         let paper = Fidelity::new(&distances, &all, Energy::Paper);
         // D = -1.7 -.7 .3 1.3, D_m = -1.7 inside and 1.3 outside.

@@ -1,9 +1,10 @@
 //! The core of a background mesh: the cells that stand for the solid (section 5.1).
 //!
 //! 1. How deep each cell's centre lies in the solid (`distance`).
-//! 2. Which cells are in: a minimum cut (`energy`).
-//! 3. As few changes as may be, so that the boundary is a 2-manifold (`manifold`).
-//! 4. The largest part of each body, without bubbles (`parts`).
+//! 2. What is thinner than cells is made thick enough for them (`thin`).
+//! 3. Which cells are in: a minimum cut (`energy`).
+//! 4. As few changes as may be, so that the boundary is a 2-manifold (`manifold`).
+//! 5. The largest part of each body, without bubbles (`parts`).
 //!
 //! **Promises.** The core is a conforming mesh, and a manifold with boundary; so its boundary is a closed 2-manifold.
 //! Whether that has the solid's Euler number is reported: features smaller than cells may be lost.
@@ -13,11 +14,11 @@ mod distance;
 mod energy;
 mod manifold;
 mod parts;
+mod thin;
 
 use serde::Serialize;
 
 use crate::geometry::Point;
-use crate::hexing::background::volume;
 use crate::mesh::numbering::hex::FACES;
 use crate::mesh::{HexId, HexMesh, NodeId, Volumes};
 use crate::solid::SolidModel;
@@ -25,15 +26,24 @@ use crate::{Cancelled, Monitor, Stage, parallel};
 use cells::{Cells, NONE};
 use distance::Distances;
 pub use energy::Energy;
+use thin::{Near, keep_thin};
 
 /// How the core is cut out.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct CoreOptions<'a> {
     /// The energy whose minimum is sought.
     pub energy: Energy,
     /// For each cell of the background, whether it is in a refined domain (section 4.3.1): others are in if their centre
     /// is. `None`: all cells are one domain.
     pub domain: Option<&'a [bool]>,
+    /// Keep walls, rods, slots and holes that are thinner than cells, as one layer of these.
+    pub keep_thin: bool,
+}
+
+impl Default for CoreOptions<'_> {
+    fn default() -> Self {
+        Self { energy: Energy::default(), domain: None, keep_thin: true }
+    }
 }
 
 /// The core.
@@ -65,6 +75,8 @@ pub struct LostPart {
 pub struct CoreReport {
     /// Cells of the background.
     pub background: usize,
+    /// Cells at what is thinner than cells.
+    pub thin: usize,
     /// Cells that the cut decided on.
     pub undecided: usize,
     /// Cells of the core.
@@ -92,6 +104,9 @@ impl CoreReport {
     }
 }
 
+/// Edges: how deep cells are that lie deeper is of no concern.
+const FAR: f64 = 2.0;
+
 const CORE: Stage = Stage("core");
 
 /// Cuts the core out of a conforming background.
@@ -110,7 +125,14 @@ pub fn core(
     monitor.checkpoint(CORE, 0.0)?;
     let cells = Cells::of(background, monitor)?;
     monitor.checkpoint(CORE, 0.2)?;
-    let distances = Distances::of(&cells, |p| solid.signed_distance(p), monitor)?;
+    // The paper's energy weighs all cells against the deepest.
+    let far = if options.energy == Energy::Paper { f64::INFINITY } else { FAR };
+    let mut distances = Distances::of(&cells, |p| solid.signed_distance(p), far, monitor)?;
+    let near = |p: Point| {
+        let foot = solid.nearest(p);
+        Near { signed: solid.signed_distance(p), foot: foot.point, normal: foot.normal }
+    };
+    let thin = if options.keep_thin { keep_thin(&cells, &mut distances, near, monitor)? } else { 0 };
     let depth = distances.depth();
     let mut inside: Vec<bool> = depth.iter().map(|&d| d < 0.0).collect();
     monitor.checkpoint(CORE, 0.5)?;
@@ -134,6 +156,7 @@ pub fn core(
     let mesh = compact(background, &kept);
     let report = CoreReport {
         background: cells.len(),
+        thin,
         undecided: free.len(),
         cells: kept.len(),
         flips: repairs.flips,
@@ -142,7 +165,7 @@ pub fn core(
         bubbles: removed.bubbles.iter().map(Vec::len).sum(),
         euler: boundary_euler(&cells, &inside),
         solid_euler: solid.euler_number(),
-        volume_ratio: Volumes::of(&mesh).map_or(0.0, |volumes| volumes.total) / volume(solid),
+        volume_ratio: Volumes::of(&mesh).map_or(0.0, |volumes| volumes.total) / solid.volume(),
     };
     let lost = removed.crumbs.iter().chain(&removed.bubbles).map(|part| lost_part(&cells, part)).collect();
     monitor.checkpoint(CORE, 1.0)?;

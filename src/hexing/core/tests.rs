@@ -3,7 +3,7 @@ use crate::Silent;
 use crate::geometry::Point;
 use crate::hexing::background::{AlignedGrid, grid};
 use crate::mesh::{PolygonMesh, check_hexes, mesh_hash};
-use crate::solid::testing::{cuboid, cylinder, ell, holed, solid};
+use crate::solid::testing::{cuboid, cylinder, ell, holed, solid, voxels};
 
 /// A ball of radius 1 of many quads.
 fn ball() -> PolygonMesh {
@@ -94,10 +94,11 @@ fn two_bodies_are_kept_each_and_crumbs_are_not() {
 fn what_is_smaller_than_cells_is_told() {
     // Two blocks, joined by a bar that is thinner than a cell and beside the lines.
     let is_bar = |[x, y, z]: [i32; 3]| (8..24).contains(&x) && y == 3 && z == 3;
-    let blocks = crate::solid::testing::voxels([32, 8, 8], |at| !(8..24).contains(&at[0]) || is_bar(at));
+    let blocks = voxels([32, 8, 8], |at| !(8..24).contains(&at[0]) || is_bar(at));
     let solid = solid(&blocks);
     let background = grid(&solid, &AlignedGrid::new(2.6), &Silent).unwrap();
-    let core = core(&background, &solid, &CoreOptions::default(), &Silent).unwrap();
+    let options = CoreOptions { keep_thin: false, ..CoreOptions::default() };
+    let core = core(&background, &solid, &options, &Silent).unwrap();
     assert_eq!(check_hexes(&core.mesh), []);
     let [lost] = core.lost[..] else { panic!("{:?}", core.lost) };
     assert!(lost.center.x > 24.0 && (3.0..8.0).contains(&lost.radius), "{lost:?}");
@@ -112,7 +113,7 @@ fn in_refined_domains_the_papers_energy_is_cut() {
     let cells = Cells::of(&background, &Silent).unwrap();
     let domain: Vec<bool> =
         (0..cells.len()).map(|c| solid.signed_distance(cells.barycentre(c)).abs() < 0.25).collect();
-    let options = CoreOptions { energy: Energy::Paper, domain: Some(&domain) };
+    let options = CoreOptions { energy: Energy::Paper, domain: Some(&domain), keep_thin: false };
     let core = core(&background, &solid, &options, &Silent).unwrap();
     assert_eq!(check_hexes(&core.mesh), []);
     assert!(
@@ -120,4 +121,33 @@ fn in_refined_domains_the_papers_energy_is_cut() {
     );
     // Cells whose faces would be bad are left out.
     assert!((0.7..1.0).contains(&core.report.volume_ratio), "{:?}", core.report);
+}
+
+#[test]
+fn what_is_thinner_than_cells_is_kept() {
+    let thin = |mut surface: PolygonMesh, scale: Point| {
+        surface.positions.iter_mut().for_each(|p| *p *= scale);
+        turned(surface)
+    };
+    // A wall, a rod, a hole and a slot, askew, for cells of edge 1.
+    let hole = voxels([9, 9, 6], |[x, y, _]| (x, y) != (4, 4));
+    let slot = voxels([9, 9, 6], |[x, _, z]| x != 4 || z < 3);
+    for (name, surface, scale) in [
+        ("wall", cuboid([12, 12, 1]), Point::new(1.0, 1.0, 0.6)),
+        ("rod", cuboid([16, 1, 1]), Point::new(1.0, 0.7, 0.7)),
+        ("hole", hole, Point::new(0.8, 0.8, 1.0)),
+        ("slot", slot, Point::new(0.6, 1.0, 1.0)),
+    ] {
+        let solid = solid(&thin(surface, scale));
+        let background = grid(&solid, &AlignedGrid::new(1.0), &Silent).unwrap();
+        let made = |keep_thin| {
+            core(&background, &solid, &CoreOptions { keep_thin, ..Default::default() }, &Silent).unwrap()
+        };
+        let (kept, plain) = (made(true), made(false));
+        assert_eq!(check_hexes(&kept.mesh), [], "{name}");
+        assert!(kept.report.has_right_euler() && kept.lost.is_empty(), "{name}: {:?}", kept.report);
+        let reach = |core: &Core| core.mesh.bounds().diagonal() / solid.diagonal();
+        assert!(reach(&kept) > 0.9, "{name}: {}", reach(&kept));
+        assert!(kept.report.thin > 0 && plain.report.thin == 0, "{name}");
+    }
 }

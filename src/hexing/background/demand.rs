@@ -1,0 +1,97 @@
+//! Where a solid's boundary wants smaller cells (section 4.3; which sizes is the design's).
+//!
+//! | what | size of a cell there |
+//! |---|---|
+//! | a curved surface | so that it turns by the angle given along an edge |
+//! | a thin wall, a narrow gap | half of it |
+//! | a curve between corners | its length / 1.5 |
+//! | a closed curve | its length / 6: a hole's rim is a hexagon at least |
+//!
+//! A size is met by the nearest level: cells of up to 1.4 times it will do. What even cells of twice the finest size
+//! would be too large for is left alone: the core keeps or gives it up as it is.
+
+use super::pieces::pieces;
+use crate::geometry::Point;
+use crate::mesh::{NodeId, PolygonMesh};
+use crate::sizing::turn_per_length;
+use crate::solid::SolidModel;
+use crate::{Cancelled, Monitor, parallel};
+
+/// Which sizes are asked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Demands {
+    /// The edge length of level 0.
+    pub edge_length: f64,
+    /// Degrees that the surface may turn along an edge.
+    pub curvature: Option<f64>,
+    /// Ask for thin walls, gaps and short curves?
+    pub details: bool,
+    /// The finest level.
+    pub finest: u8,
+}
+
+/// The cosine between the normals of two walls that face each other, at most.
+const FACING: f64 = -0.5;
+
+impl Demands {
+    /// For each level from 1 to the finest, the points of the boundary around which cells are to be of that level.
+    pub fn points(&self, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<Vec<Point>>, Cancelled> {
+        let turns = match self.curvature {
+            Some(_) => turn_per_length(&surface_of(solid), monitor)?,
+            None => Vec::new(),
+        };
+        let found = parallel::try_gather(solid.triangles().len(), monitor, |t, found| {
+            let curved = self.curvature.map_or(f64::INFINITY, |angle| angle / turns[t]);
+            let is_small = |piece: &[Point; 3]| {
+                let [a, b, c] = *piece;
+                a.distance(b).max(b.distance(c)).max(c.distance(a)) <= self.edge_length
+            };
+            pieces(solid.corners_of(t), is_small, &mut |[a, b, c]| {
+                let at = (a + b + c) / 3.0;
+                let size = if self.details { curved.min(self.room(solid, at, t)) } else { curved };
+                found.extend(self.level(size).map(|level| (level, at)));
+            });
+        })?;
+        let curves = solid.curves().iter().filter(|_| self.details).flat_map(|curve| {
+            let level = self.level(curve.length / if curve.ends.is_some() { 1.5 } else { 6.0 });
+            let points = curve.vertices.iter().map(|&v| solid.points()[v as usize]);
+            level.into_iter().flat_map(move |level| points.clone().map(move |at| (level, at)))
+        });
+        let mut by_level = vec![Vec::new(); usize::from(self.finest)];
+        for (level, at) in found.into_iter().chain(curves) {
+            by_level[usize::from(level) - 1].push(at);
+        }
+        Ok(by_level)
+    }
+
+    /// Half of how thick the solid is at a point of its boundary, or of how narrow the gap beyond; infinite where that is
+    /// no less than an edge.
+    fn room(&self, solid: &SolidModel, at: Point, triangle: usize) -> f64 {
+        let normal = solid.normals()[triangle];
+        let across = |side: f64| {
+            let probe = at + normal * (self.edge_length * side);
+            let thickness = self.edge_length + solid.signed_distance(probe) * side;
+            let faces = || solid.nearest(probe).normal.dot(normal) < FACING;
+            if thickness < 1.99 * self.edge_length && faces() { 0.5 * thickness } else { f64::INFINITY }
+        };
+        across(1.0).min(across(-1.0))
+    }
+
+    /// The level whose cells have about this size; `None` if that is 0, or far beyond the finest.
+    fn level(&self, size: f64) -> Option<u8> {
+        let halvings = libm::log2(self.edge_length / size).round();
+        let finest = f64::from(self.finest);
+        (halvings >= 1.0 && halvings <= finest + 1.0)
+            .then(|| halvings.min(finest) as u8)
+            .filter(|&level| level > 0)
+    }
+}
+
+/// The boundary as a surface whose curves are creases.
+fn surface_of(solid: &SolidModel) -> PolygonMesh {
+    let mut surface = PolygonMesh { positions: solid.points().to_vec(), ..Default::default() };
+    solid.triangles().iter().for_each(|t| surface.push_face(t.map(NodeId)));
+    let edges = solid.curves().iter().flat_map(|curve| curve.vertices.windows(2));
+    surface.features.creases = edges.map(|edge| ([NodeId(edge[0]), NodeId(edge[1])], 1.0)).collect();
+    surface
+}
