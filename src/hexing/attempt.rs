@@ -13,11 +13,13 @@ use crate::mesh::topology::hex_boundary;
 use crate::mesh::{Distances, HexMesh, NodeId, Triangles};
 use crate::solid::{SolidModel, SurfaceId};
 
-/// A background mesh, and how its lines were moved.
-#[derive(Clone, Debug)]
-pub(super) struct Ground {
-    pub(super) mesh: HexMesh,
+/// How to try.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Try {
+    /// How far the lines of the background are moved, as a share of an edge along each axis.
     pub(super) shift: [f64; 3],
+    /// Is what is thinner than cells to be kept?
+    pub(super) keep_thin: bool,
 }
 
 /// A mesh of a body and where it stands for what.
@@ -33,8 +35,10 @@ pub(super) struct Attempt {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct AttemptReport {
-    /// How far the lines of a grid were moved, as a share of an edge along each axis.
+    /// How far the lines of the background were moved, as a share of an edge along each axis.
     pub shift: [f64; 3],
+    /// Was what is thinner than cells made as thick as one?
+    pub keep_thin: bool,
     /// The core.
     pub core: CoreReport,
     /// What became of the solid's features.
@@ -125,13 +129,13 @@ pub struct FitCounts {
 
 /// Makes a mesh of `solid` out of a background.
 pub(super) fn attempt(
-    ground: Ground,
+    background: HexMesh,
+    Try { shift, keep_thin }: Try,
     solid: &SolidModel,
     edge_length: f64,
     monitor: &dyn Monitor,
 ) -> Result<Attempt, HexingError> {
-    let Ground { mesh: background, shift } = ground;
-    let cut = core(&background, solid, &CoreOptions::default(), monitor)?;
+    let cut = core(&background, solid, &CoreOptions { keep_thin, ..CoreOptions::default() }, monitor)?;
     drop(background);
     let mut mesh = cut.mesh;
     if mesh.hexes.is_empty() {
@@ -146,6 +150,7 @@ pub(super) fn attempt(
     let drawn_in = separate(&mut mesh, monitor)?;
     let report = AttemptReport {
         shift,
+        keep_thin,
         core: cut.report,
         features: FeatureReport::new(solid, &on.reduction),
         sheets: sheet_counts(&sheets, &fitted),

@@ -11,7 +11,7 @@
 
 use serde::Serialize;
 
-use super::attempt::{Attempt, AttemptReport, Ground, attempt};
+use super::attempt::{Attempt, AttemptReport, Try, attempt};
 use super::background::{AlignedGrid, grid};
 use super::direction::best_frame;
 use super::groups::groups_of;
@@ -53,8 +53,12 @@ impl HexingReport {
 /// The stage in which the surface becomes a solid.
 const SOLID: Stage = Stage("solid");
 
-/// How the lines of a grid are moved from try to try, as shares of an edge.
-const SHIFTS: [[f64; 3]; 3] = [[0.0; 3], [0.5; 3], [0.25, 0.5, 0.75]];
+/// What is tried, one after the other, until a mesh has nothing left to mend.
+const TRIES: [Try; 3] = [
+    Try { shift: [0.0; 3], keep_thin: false },
+    Try { shift: [0.0; 3], keep_thin: true },
+    Try { shift: [0.5; 3], keep_thin: false },
+];
 
 /// A least scaled Jacobian with which there is no other try.
 const GOOD: f64 = 0.35;
@@ -93,11 +97,19 @@ pub fn hex_solid(
     let axes = best_frame(&solid).axes();
     let mut attempts = Vec::new();
     let mut best: Option<(usize, Attempt)> = None;
-    for shift in SHIFTS {
-        let aligned =
-            AlignedGrid { axes, shift, max_hexes: options.max_hexes, edge_length: options.edge_length };
-        let ground = Ground { mesh: grid(&solid, &aligned, monitor)?, shift };
-        let made = match attempt(ground, &solid, options.edge_length, monitor) {
+    for next in TRIES {
+        // Thicker walls mend nothing but the solid's kind.
+        if next.keep_thin && best.as_ref().is_some_and(|(_, best)| best.report.core.has_right_euler()) {
+            continue;
+        }
+        let aligned = AlignedGrid {
+            axes,
+            shift: next.shift,
+            max_hexes: options.max_hexes,
+            edge_length: options.edge_length,
+        };
+        let background = grid(&solid, &aligned, monitor)?;
+        let made = match attempt(background, next, &solid, options.edge_length, monitor) {
             // Another try may do better.
             Err(HexingError::NothingLeft { .. } | HexingError::Tangled(_)) if best.is_some() => continue,
             made => made?,
