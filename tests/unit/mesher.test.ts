@@ -200,7 +200,7 @@ describe.each([1, 2, 4])('on %i threads', (threads) => {
       expect(again.info.hash, format).toBe(mesh.hash);
     }
     const refused = mesher.load(new Uint8Array([0x89, 0x50, 0x4e, 0x47, 13, 10]), { name: 'picture.xyz' });
-    await expect(refused).rejects.toMatchObject({ code: 'format-unknown', message: expect.stringMatching(/PNG.*\.obj, \.vtu/) });
+    await expect(refused).rejects.toMatchObject({ code: 'format-unknown', message: expect.stringMatching(/PNG.*\.obj, \.stl, \.vtu/) });
   });
 
   it('gives a hash to surfaces of several kinds of faces', async () => {
