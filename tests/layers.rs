@@ -176,7 +176,7 @@ fn imports_follow_the_arrow() {
 }
 
 /// What names rayon, beside tests: the loop that all others go down to, and the pools.
-const KNOW_THE_THREADS: [&str; 3] = ["parallel/blocks", "web/pool", "bin/hexmill/cli/threads"];
+const KNOW_THE_THREADS: [&str; 3] = ["parallel/blocks", "web/pool", "bin/hexmill/cli/making"];
 
 #[test]
 fn all_loops_over_threads_go_through_one_room() {

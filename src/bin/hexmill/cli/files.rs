@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
 use hexmill::io::{self, Document, Format};
+use hexmill::mesh::PolygonMesh;
 
 use super::failure::Failure;
 
@@ -76,6 +77,11 @@ pub(crate) fn load(path: &Path) -> Result<Loaded, Failure> {
 }
 
 impl Loaded {
+    /// Takes the mesh out, and leaves an empty one.
+    pub(crate) fn take_document(&mut self) -> Document {
+        std::mem::replace(&mut self.document, Document::from(PolygonMesh::default()))
+    }
+
     /// Warns of faces in a file of hexes that could not be kept.
     pub(crate) fn warn_of_dropped_faces(&self, quiet: bool) {
         let count = self.document.dropped_faces;

@@ -6,27 +6,21 @@ use hexmill::hexing::{HexedSolid, HexingError, HexingOptions, hex_solid};
 use hexmill::io::Document;
 
 use super::args::HexArgs;
-use super::deliver::Delivery;
 use super::failure::Failure;
-use super::files::{check_outputs, format_of, load};
+use super::files::load;
+use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
-use super::report::{Report, peak_memory_bytes};
-use super::threads::use_threads;
+use super::report::Report;
 
 /// Reads a closed surface, fills it with hexes, writes and reports.
 pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
-    let format = format_of(&args.output)?;
-    format_of(&args.input)?;
-    check_files(args)?;
-    use_threads(args.threads)?;
+    let format = args.making.prepare(&[("the input", &args.input)])?;
     let options = options(args);
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
-    let document =
-        std::mem::replace(&mut loaded.document, Document::from(hexmill::mesh::PolygonMesh::default()));
-    let surface = document.into_surface().ok_or_else(|| {
+    let surface = loaded.take_document().into_surface().ok_or_else(|| {
         let message = "holds hexes, but a closed surface is wanted; refine hexes with hexmill refine";
         Failure::refused("surface-needed", format!("{}: {message}", args.input.display()))
     })?;
@@ -35,32 +29,9 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
         hex_solid(&surface, &options, &progress).map_err(|error| refused(&args.input, &error))?;
     drop(surface);
 
-    let document = Document::from(mesh);
-    let delivery = Delivery {
-        command: "hex",
-        input: (&loaded, before),
-        document: &document,
-        capped: 0,
-        output: &args.output,
-        format,
-        is_checked: args.report.is_some(),
-    };
-    let mut report = delivery.write(&progress)?;
-    report.hexing = Some(work);
-    (report.stages, report.seconds) = progress.finish();
-    report.peak_memory_bytes = peak_memory_bytes();
-    if !quiet {
-        print!("{}", in_words(&args.output, &report));
-    }
-    args.report.as_deref().map_or(Ok(()), |path| report.save(path))
-}
-
-/// Refuses outputs that are inputs, or each other.
-fn check_files(args: &HexArgs) -> Result<(), Failure> {
-    let inputs = [("the input", args.input.as_path())];
-    let report = args.report.as_deref().map(|path| ("--report", path));
-    let outputs: Vec<_> = std::iter::once(("--output", args.output.as_path())).chain(report).collect();
-    check_outputs(&inputs, &outputs)
+    let made = Made { command: "hex", input: (&loaded, before), document: &Document::from(mesh), capped: 0 };
+    let report = Report { hexing: Some(work), ..args.making.write(&made, format, &progress)? };
+    args.making.close(report, &progress, quiet, in_words)
 }
 
 fn options(args: &HexArgs) -> HexingOptions {

@@ -3,11 +3,11 @@
 mod args;
 mod check;
 mod convert;
-mod deliver;
 mod failure;
 mod files;
 mod grid;
 mod hex;
+mod making;
 mod memory;
 mod mesh_report;
 mod progress;
@@ -17,7 +17,6 @@ mod refine_hexes;
 mod refine_surface;
 mod region;
 mod report;
-mod threads;
 
 use std::process::ExitCode;
 

@@ -3,17 +3,15 @@
 use std::path::Path;
 
 use hexmill::io::{AnyMesh, Document};
-use hexmill::mesh::PolygonMesh;
 use hexmill::refine::QuadOptions;
 
 use super::args::RefineArgs;
-use super::deliver::Delivery;
 use super::failure::Failure;
-use super::files::{check_outputs, format_of, load};
+use super::files::load;
+use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
-use super::report::{HexRefinementReport, OptionsReport, Report, peak_memory_bytes};
-use super::threads::use_threads;
+use super::report::{HexRefinementReport, OptionsReport, Report};
 use super::{refine_hexes, refine_surface};
 
 /// What a refinement made, and of what.
@@ -29,49 +27,25 @@ pub(super) struct Refined {
 
 /// Reads, refines, writes and reports.
 pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
-    let format = format_of(&args.output)?;
-    format_of(&args.input)?;
     check_levels(args)?;
-    check_files(args)?;
-    use_threads(args.threads)?;
+    let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
+    let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
+    let format = args.making.prepare(&inputs)?;
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
     loaded.warn_of_dropped_faces(quiet);
-    let empty = Document::from(PolygonMesh::default());
-    let document = std::mem::replace(&mut loaded.document, empty);
+    let document = loaded.take_document();
     let refined = match document.mesh {
         AnyMesh::Hexes(_) => refine_hexes::refine(args, document, quiet, &progress),
         _ => refine_surface::refine(args, document, &progress),
     };
     let Refined { before, document, capped, options, work } = refined?;
 
-    let delivery = Delivery {
-        command: "refine",
-        input: (&loaded, before),
-        document: &document,
-        capped,
-        output: &args.output,
-        format,
-        is_checked: args.report.is_some(),
-    };
-    let mut report = delivery.write(&progress)?;
-    (report.options, report.refinement) = (Some(options), work);
-    (report.stages, report.seconds) = progress.finish();
-    report.peak_memory_bytes = peak_memory_bytes();
-    if !quiet {
-        print!("{}", in_words(&args.output, &report));
-    }
-    args.report.as_deref().map_or(Ok(()), |path| report.save(path))
-}
-
-/// Refuses outputs that are inputs, or each other.
-fn check_files(args: &RefineArgs) -> Result<(), Failure> {
-    let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
-    let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
-    let report = args.report.as_deref().map(|path| ("--report", path));
-    let outputs: Vec<_> = std::iter::once(("--output", args.output.as_path())).chain(report).collect();
-    check_outputs(&inputs, &outputs)
+    let made = Made { command: "refine", input: (&loaded, before), document: &document, capped };
+    let report = args.making.write(&made, format, &progress)?;
+    let report = Report { options: Some(options), refinement: work, ..report };
+    args.making.close(report, &progress, quiet, in_words)
 }
 
 /// Refuses more levels than there may be.

@@ -1,5 +1,8 @@
 //! The command line's options, with their help.
 
+mod examples;
+mod values;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
@@ -10,6 +13,7 @@ use hexmill::refine::QuadOptions;
 use hexmill::refine::hex::{HexOptions, Method};
 
 use super::region::RegionArg;
+use values::{angle, gradation, levels, positive};
 
 /// Conforming quad and hex meshes of surfaces and solids, refined where they are wanted finer.
 ///
@@ -32,100 +36,40 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Refine a surface to a conforming quad mesh, or a hex mesh to a conforming hex mesh
-    #[command(after_long_help = REFINE_EXAMPLES)]
+    #[command(after_long_help = examples::REFINE)]
     Refine(RefineArgs),
     /// Mesh the solid that a closed surface bounds with hexes
-    #[command(after_long_help = HEX_EXAMPLES)]
+    #[command(after_long_help = examples::HEX)]
     Hex(HexArgs),
     /// Say what is wrong with a mesh, and how good it is
-    #[command(after_long_help = CHECK_EXAMPLES)]
+    #[command(after_long_help = examples::CHECK)]
     Check(CheckArgs),
     /// Write a mesh in another format
-    #[command(after_long_help = CONVERT_EXAMPLES)]
+    #[command(after_long_help = examples::CONVERT)]
     Convert(ConvertArgs),
     /// Make a box of hexes around a mesh
-    #[command(after_long_help = GRID_EXAMPLES)]
+    #[command(after_long_help = examples::GRID)]
     Grid(GridArgs),
     /// Mesh a planar face with quads alone, along its outline, holes and inner curves
-    #[command(after_long_help = QUAD_EXAMPLES)]
+    #[command(after_long_help = examples::QUAD)]
     Quad(QuadArgs),
 }
 
-const REFINE_EXAMPLES: &str = "\
-Examples:
-  No edge longer than 2 model units, for ParaView:
-    hexmill refine part.obj -o part.vtu --edge-length 2
+/// What every command that makes a mesh takes.
+#[derive(Args, Debug)]
+pub(crate) struct Making {
+    /// Where to write the mesh
+    #[arg(long, short, value_name = "OUT")]
+    pub(crate) output: PathBuf,
 
-  Twice finer everywhere, whatever the size (each level halves the edges):
-    hexmill refine part.obj -o fine.obj --levels 1
+    /// Threads to use [default: one a core]; the result does not depend on it
+    #[arg(long, short = 'j', value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
 
-  Edges of 5, but of 0.5 in a ball of radius 10 around the origin:
-    hexmill refine part.obj -o part.vtu --edge-length 5 --region sphere:0,0,0,10:h=0.5
-
-  Three levels in a box, four along a bore, everything else as coarse as it gets:
-    hexmill refine part.obj -o part.msh \\
-      --region box:0,0,0,10,10,5:level=3 --region cylinder:5,5,-1,5,5,6,2:level=4
-
-  A box turned by 30 degrees about z (about x, then y, then z, through its centre):
-    hexmill refine part.obj -o part.vtu --region box:0,0,0,10,2,2,0,0,30:h=0.2
-
-  Near the nodes of one mesh and within 1.5 of the surface of another:
-    hexmill refine part.obj -o part.vtu --region points:probes.obj,0.5:level=4 \\
-      --region surface:shock.obj,1.5:h=0.25
-
-  Hexes around a hull (see hexmill grid), three levels deep at its surface:
-    hexmill refine sea.vtu -o fine.vtu --method two --region surface:hull.obj,0:level=3
-
-  Follow curvature, ten degrees an edge, and keep a record:
-    hexmill refine part.obj -o part.vtu --curvature 10 --report part.json
-
-Regions are KIND:NUMBERS:h=SIZE (no edge longer than SIZE in it) or KIND:NUMBERS:level=N (N levels
-deep; the input is level 0):
-  box:x0,y0,z0,x1,y1,z1              from corner to corner
-  box:x0,y0,z0,x1,y1,z1,ax,ay,az     turned about x, y and z (fixed axes, degrees, in this order)
-  box:x0,y0,z0,x1,y1,z1,qx,qy,qz,qw  turned by a quaternion
-  sphere:cx,cy,cz,r
-  cylinder:ax,ay,az,bx,by,bz,r       capped, from a to b
-  points:FILE,r                      within r of a node of FILE
-  surface:FILE,d                     within d of a face of FILE";
-
-const HEX_EXAMPLES: &str = "\
-Examples:
-  Edges of about 2 model units, for ParaView:
-    hexmill hex part.obj -o part.vtu --edge-length 2
-
-  Surfaces meet where faces turn by more than 20 degrees; a record of what came of each feature:
-    hexmill hex part.obj -o part.msh -e 2 --feature-angle 20 --report part.json";
-
-const CHECK_EXAMPLES: &str = "\
-Exit code 1 if the mesh is not conforming (repeated or hanging nodes, faces twice, ...). Open borders,
-non-manifold edges and the like are noted, but are no reason to refuse.
-
-Examples:
-  hexmill check part.vtu
-  hexmill check part.vtu --surface part.obj      how far the mesh and the surface are from each other
-  hexmill check part.vtu --report part.json      everything, as JSON";
-
-const CONVERT_EXAMPLES: &str = "\
-Examples:
-  hexmill convert part.obj -o part.vtu
-  hexmill convert part.mesh -o part.inp";
-
-const GRID_EXAMPLES: &str = "\
-The grid runs along the axes, with the mesh in its middle.
-
-Examples:
-  hexmill grid hull.obj --spacing 0.5 -o sea.vtu                 cubes of edge 0.5
-  hexmill grid hull.obj --spacing 0.5 --margin 4 -o sea.vtu      reaching 4 beyond the hull at least
-  hexmill grid hull.obj --spacing 0.5 --margin 4 --fit -o sea.vtu    and no farther: edges up to 0.5";
-
-const QUAD_EXAMPLES: &str = "\
-The polygons of IN lie in one plane, any plane. Their common outline and their holes are kept, and so are the polylines
-(OBJ l lines) in it: edges of the quads follow them. Corners of more than 40 degrees are nodes, and so are nodes with a
-sharpness (OBJ t corner).
-
-Examples:
-  hexmill quad plate.obj -o quads.vtu --edge-length 0.5";
+    /// Where to write a record of the work as JSON (see docs/report.md)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
+}
 
 /// `hexmill refine`.
 #[derive(Args, Debug)]
@@ -133,10 +77,6 @@ pub(crate) struct RefineArgs {
     /// The surface, triangles, quads and polygons in any mixture; or the hex mesh
     #[arg(value_name = "IN")]
     pub(crate) input: PathBuf,
-
-    /// Where to write the mesh
-    #[arg(long, short, value_name = "OUT")]
-    pub(crate) output: PathBuf,
 
     /// No edge longer than this, in model units
     #[arg(long, short = 'e', value_name = "L", value_parser = positive)]
@@ -178,13 +118,8 @@ pub(crate) struct RefineArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexOptions::MOST_HEXES))]
     pub(crate) max_hexes: Option<u64>,
 
-    /// Threads to use [default: one a core]; the result does not depend on it
-    #[arg(long, short = 'j', value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-
-    /// Where to write a record of the work as JSON (see docs/report.md)
-    #[arg(long, value_name = "FILE")]
-    pub(crate) report: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) making: Making,
 }
 
 /// `hexmill hex`.
@@ -193,10 +128,6 @@ pub(crate) struct HexArgs {
     /// The closed surface of the solid, or of several
     #[arg(value_name = "IN")]
     pub(crate) input: PathBuf,
-
-    /// Where to write the mesh
-    #[arg(long, short, value_name = "OUT")]
-    pub(crate) output: PathBuf,
 
     /// How long edges are to be, in model units
     #[arg(long, short = 'e', value_name = "L", value_parser = positive)]
@@ -210,13 +141,8 @@ pub(crate) struct HexArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexingOptions::MOST_HEXES))]
     pub(crate) max_hexes: Option<u64>,
 
-    /// Threads to use [default: one a core]; the result does not depend on it
-    #[arg(long, short = 'j', value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-
-    /// Where to write a record of the work as JSON (see docs/report.md)
-    #[arg(long, value_name = "FILE")]
-    pub(crate) report: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) making: Making,
 }
 
 /// How refined hexes and coarse ones are joined.
@@ -271,21 +197,6 @@ pub(crate) struct ConvertArgs {
     pub(crate) output: PathBuf,
 }
 
-/// Levels that can be asked for.
-fn levels() -> clap::builder::RangedI64ValueParser<u8> {
-    clap::value_parser!(u8).range(0..=i64::from(QuadOptions::DEEPEST_LEVEL))
-}
-
-/// Degrees of a turn.
-fn angle(text: &str) -> Result<f64, String> {
-    positive(text).ok().filter(|&angle| angle <= 180.0).ok_or("give a number above 0, at most 180".to_owned())
-}
-
-/// A growth from element to element.
-fn gradation(text: &str) -> Result<f64, String> {
-    positive(text).ok().filter(|&g| g > 1.0 && g <= 2.0).ok_or("give a number above 1, at most 2".to_owned())
-}
-
 /// `hexmill grid`.
 #[derive(Args, Debug)]
 pub(crate) struct GridArgs {
@@ -321,10 +232,6 @@ pub(crate) struct QuadArgs {
     #[arg(value_name = "IN")]
     pub(crate) input: PathBuf,
 
-    /// Where to write the mesh
-    #[arg(long, short, value_name = "OUT")]
-    pub(crate) output: PathBuf,
-
     /// About how long the edges are to be, in model units
     #[arg(long, short = 'e', value_name = "L", value_parser = positive)]
     pub(crate) edge_length: f64,
@@ -333,15 +240,6 @@ pub(crate) struct QuadArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=RegionOptions::MOST_QUADS))]
     pub(crate) max_quads: Option<u64>,
 
-    /// Where to write a record of the work as JSON (see docs/report.md)
-    #[arg(long, value_name = "FILE")]
-    pub(crate) report: Option<PathBuf>,
-}
-
-/// A finite number above zero.
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("give a number above 0".to_owned()),
-    }
+    #[command(flatten)]
+    pub(crate) making: Making,
 }

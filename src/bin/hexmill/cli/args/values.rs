@@ -1,0 +1,26 @@
+//! What options may be, and how that is told.
+
+use hexmill::refine::QuadOptions;
+
+/// A finite number above zero.
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("give a number above 0".to_owned()),
+    }
+}
+
+/// Levels that can be asked for.
+pub(super) fn levels() -> clap::builder::RangedI64ValueParser<u8> {
+    clap::value_parser!(u8).range(0..=i64::from(QuadOptions::DEEPEST_LEVEL))
+}
+
+/// Degrees of a turn.
+pub(super) fn angle(text: &str) -> Result<f64, String> {
+    positive(text).ok().filter(|&angle| angle <= 180.0).ok_or("give a number above 0, at most 180".to_owned())
+}
+
+/// A growth from element to element.
+pub(super) fn gradation(text: &str) -> Result<f64, String> {
+    positive(text).ok().filter(|&g| g > 1.0 && g <= 2.0).ok_or("give a number above 1, at most 2".to_owned())
+}

@@ -1,0 +1,86 @@
+//! What every command that makes a mesh does before its work and after it.
+
+use std::path::Path;
+
+use hexmill::io::{self, Document, Format};
+
+use super::args::Making;
+use super::failure::Failure;
+use super::files::{Loaded, check_outputs, format_of, save};
+use super::mesh_report::{Counts, MeshReport};
+use super::progress::Progress;
+use super::report::{FileReport, InputReport, Report, peak_memory_bytes};
+
+/// A mesh that was made.
+pub(super) struct Made<'a> {
+    pub(super) command: &'static str,
+    /// The file that the mesh was made of, and what was in it.
+    pub(super) input: (&'a Loaded, Counts),
+    pub(super) document: &'a Document,
+    /// Elements that are larger than asked for.
+    pub(super) capped: usize,
+}
+
+impl Making {
+    /// Refuses outputs that are inputs or each other, and starts the threads; gives the output's format. The first of
+    /// `inputs` is the mesh to read.
+    pub(super) fn prepare(&self, inputs: &[(&str, &Path)]) -> Result<Format, Failure> {
+        let format = format_of(&self.output)?;
+        if let Some((_, mesh)) = inputs.first() {
+            format_of(mesh)?;
+        }
+        let report = self.report.as_deref().map(|path| ("--report", path));
+        let outputs: Vec<_> = std::iter::once(("--output", self.output.as_path())).chain(report).collect();
+        check_outputs(inputs, &outputs)?;
+        self.threads.map_or(Ok(()), use_threads)?;
+        Ok(format)
+    }
+
+    /// Writes the mesh, and begins the record of the command.
+    pub(super) fn write(
+        &self,
+        made: &Made<'_>,
+        format: Format,
+        progress: &Progress,
+    ) -> Result<Report, Failure> {
+        let bytes = progress
+            .stage("encode", || io::write(made.document, format))
+            .map_err(|e| Failure::write(&self.output, &e))?;
+        progress.stage("write", || save(&self.output, &bytes))?;
+        let output = FileReport::new(&self.output, format, bytes.len() as u64);
+        drop(bytes);
+        let mut mesh = progress.stage("measure", || MeshReport::of(made.document, made.capped));
+        if self.report.is_some() {
+            progress.stage("check", || mesh.check(&made.document.mesh));
+        }
+        let (loaded, before) = made.input;
+        let report = Report::new(made.command, InputReport::new(loaded, before), mesh);
+        Ok(Report { output: Some(output), ..report })
+    }
+
+    /// Ends the record, tells people what was made unless `quiet`, and saves the record if that is wanted.
+    pub(super) fn close(
+        &self,
+        mut report: Report,
+        progress: &Progress,
+        quiet: bool,
+        in_words: fn(&Path, &Report) -> String,
+    ) -> Result<(), Failure> {
+        (report.stages, report.seconds) = progress.finish();
+        report.peak_memory_bytes = peak_memory_bytes();
+        if !quiet {
+            print!("{}", in_words(&self.output, &report));
+        }
+        self.report.as_deref().map_or(Ok(()), |path| report.save(path))
+    }
+}
+
+/// Makes the library's work run on `threads` threads.
+fn use_threads(threads: u16) -> Result<(), Failure> {
+    rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|error| {
+        Failure::refused(
+            "threads-not-started",
+            format!("{threads} threads cannot be started: {error}; give fewer"),
+        )
+    })
+}
