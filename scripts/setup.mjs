@@ -10,7 +10,8 @@ import { join } from 'node:path';
 import { findChromedriver, findChromium } from './browser.mjs';
 import { Failure, execute, isMain, main, must, output, root, which } from './shell.mjs';
 
-const OLDEST_NODE = 20;
+/** What the packages that build and test the page run on. */
+const NODE = 'Node 20.19 or newer of 20, or 22.12 or newer';
 const TOOLS = join(root, '.tools');
 
 /** The wasm-bindgen version that Cargo.toml pins; the command line has to be the very same. */
@@ -28,10 +29,9 @@ export async function setup({ browser = true } = {}) {
 }
 
 function checkNode() {
-  const major = Number(process.versions.node.split('.')[0]);
-  if (major < OLDEST_NODE) {
-    throw new Failure(`Node ${OLDEST_NODE} or newer is needed; this is Node ${process.versions.node}.`);
-  }
+  const [major = 0, minor = 0] = process.versions.node.split('.').map(Number);
+  const oldestMinor = new Map([[20, 19], [22, 12]]).get(major) ?? (major > 22 ? 0 : Infinity);
+  if (minor < oldestMinor) throw new Failure(`${NODE} is needed; this is Node ${process.versions.node}.`);
 }
 
 /** The toolchain that rust-toolchain.toml names, with its WebAssembly target and the sources of std. */

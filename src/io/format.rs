@@ -40,6 +40,21 @@ impl Format {
         }
     }
 
+    /// Are files of this format read?
+    pub fn is_read(self) -> bool {
+        self != Self::Glb
+    }
+
+    /// Are files of this format written?
+    pub fn is_written(self) -> bool {
+        self != Self::Stl
+    }
+
+    /// Are hexes written in this format? GLB gets their boundary.
+    pub fn takes_hexes(self) -> bool {
+        self.is_written() && self != Self::Obj
+    }
+
     /// The format of a file extension, in any case, without the dot. `medit` is taken for `mesh`.
     pub fn from_extension(extension: &str) -> Option<Self> {
         let lower = extension.to_ascii_lowercase();

@@ -60,7 +60,7 @@ pub fn detect(bytes: &[u8]) -> Result<Format, ReadError> {
         let is = wide_text(bytes).map(|encoding| format!("this is {encoding} text"));
         let is = is.or_else(|| not_obj(bytes).map(|kind| format!("this is {kind}")));
         let is = is.unwrap_or_else(|| "the content is of no known format".to_owned());
-        let readable: Vec<_> = Format::ALL.into_iter().filter(|&f| f != Format::Glb).collect();
+        let readable: Vec<_> = Format::ALL.into_iter().filter(|f| f.is_read()).collect();
         let names: Vec<_> = readable.into_iter().map(|f| format!(".{}", f.name())).collect();
         let message = format!("{is}: give one of {}, or name the format", names.join(", "));
         ReadError { format: Format::Obj, line: None, code: "format-unknown", message }

@@ -84,7 +84,8 @@ fn light(normal: vec3<f32>, to_eye: vec3<f32>) -> f32 {
     return min(0.28 + 0.14 * sky + 0.42 * key + 0.14 * fill + 0.14 * head, 1.0);
 }
 
-// How much of the pixel the edges cover. They fade where cells are too small to be told apart.
+// How much of the pixel the edges cover. They fade where cells are too small to be told apart: all edges of a cell
+// alike, by its area.
 fn edge_cover(sides: vec3<f32>, polygon: f32) -> f32 {
     let dx = dpdx(sides);
     let dy = dpdy(sides);
@@ -92,10 +93,11 @@ fn edge_cover(sides: vec3<f32>, polygon: f32) -> f32 {
     let half_width = 0.5 * frame.canvas.w;
     let distance = max(sides, vec3<f32>(0.0)) / gradient;
     let cover = 1.0 - smoothstep(vec3<f32>(half_width - 0.5), vec3<f32>(half_width + 0.5), distance);
-    let height = 1.0 / gradient;
-    let fade = smoothstep(vec3<f32>(2.0), vec3<f32>(14.0), height / frame.canvas.w);
-    let shown = cover * max(fade, vec3<f32>(polygon));
-    return max(shown.x, max(shown.y, shown.z));
+    // Two coordinates change by the inverse of twice the triangle's area; the third is a diagonal's, or does as they do.
+    let change = abs(cross(dx, dy));
+    let width = inverseSqrt(max(max(change.x, change.y), max(change.z, 1e-9))) / frame.canvas.w;
+    let fade = max(smoothstep(2.5, 8.0, width), polygon);
+    return fade * max(cover.x, max(cover.y, cover.z));
 }
 
 // How far outside the unit solid a point is: 0 on its surface, negative inside.

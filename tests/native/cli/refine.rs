@@ -26,6 +26,17 @@ fn levels_divide_every_quad() {
 }
 
 #[test]
+fn features_that_are_lost_are_counted() {
+    let folder = folder_with("creases/cube_creases0.obj");
+    let args = ["refine", "cube_creases0.obj", "-o", "out.obj", "--levels", "1", "--report", "r.json"];
+    let stdout = succeed(&folder, &args);
+    let told = "  0 polylines, 2 creases and 0 corners of the input do not go over to the mesh\n";
+    assert!(stdout.contains(told), "{stdout}");
+    let counts = json!({"polylines": 0, "creases": 2, "corners": 0});
+    assert_eq!(json(&folder, "r.json")["droppedFeatures"], counts);
+}
+
+#[test]
 fn triangles_and_polygons_become_quads() {
     for (model, file) in [("solids/spot.obj", "spot.obj"), ("quads/bishop.obj", "bishop.obj")] {
         let folder = folder_with(model);

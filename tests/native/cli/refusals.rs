@@ -1,6 +1,8 @@
 //! What the command line refuses, with which words and which exit code.
 
-use super::{fail, files, folder_holding, folder_with, hexmill};
+use tempfile::TempDir;
+
+use super::{fail, files, folder_holding, folder_with, hexmill, json, succeed};
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
@@ -160,6 +162,61 @@ fn extensions_must_be_known() {
         "out.step: the extension names no mesh format; use one of .obj,",
     );
     misused(&["convert", "in", "-o", "out.obj"], "in: the extension names no mesh format");
+}
+
+#[test]
+fn outputs_that_cannot_hold_the_mesh_are_refused_before_the_work() {
+    misused(
+        &["refine", "in.obj", "-o", "out.stl"],
+        "out.stl: STL files are only read; use one of .obj, .vtu",
+    );
+    misused(
+        &["hex", "in.obj", "-o", "out.obj", "-e", "1"],
+        "out.obj: OBJ files hold no hexes; use one of .vtu",
+    );
+    misused(&["grid", "in.obj", "-o", "out.stl", "--spacing", "1"], "out.stl: STL files are only read");
+    let folder = folder_with("quads/helmet.obj");
+    succeed(&folder, &["grid", "helmet.obj", "-o", "box.vtu", "--spacing", "0.2"]);
+    let run = hexmill(&folder, &["refine", "box.vtu", "-o", "out.obj", "--levels", "1"]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
+    assert!(run.stderr.contains("out.obj: OBJ files hold no hexes"), "{}", run.stderr);
+}
+
+#[test]
+fn negative_sizes_are_refused_as_sizes() {
+    misused(&["refine", "in.obj", "-o", "out.obj", "--edge-length", "-1"], "give a number above 0");
+}
+
+/// Runs `hexmill` with its results going to `output`; gives the exit code and what it says beside them.
+#[cfg(target_os = "linux")]
+fn printing_to(folder: &TempDir, args: &[&str], output: std::process::Stdio) -> (Option<i32>, String) {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_hexmill"));
+    let done = command.args(args).current_dir(folder).stdout(output).output().expect("it starts");
+    (done.status.code(), String::from_utf8(done.stderr).expect("UTF-8"))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_reader_that_goes_away_is_no_failure_and_a_full_device_is_one() {
+    let folder = folder_with("quads/helmet.obj");
+    let commands: [&[&str]; 4] = [
+        &["refine", "helmet.obj", "-o", "out.vtu", "--report", "r.json"],
+        &["check", "helmet.obj", "--report", "s.json"],
+        &["convert", "helmet.obj", "-o", "out.vtk"],
+        &["grid", "helmet.obj", "-o", "grid.vtu", "--spacing", "0.2"],
+    ];
+    for args in commands {
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        assert_eq!(printing_to(&folder, args, writer.into()), (Some(0), String::new()), "{args:?}");
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
+        let (code, said) = printing_to(&folder, args, full.into());
+        assert_eq!(code, Some(1), "{args:?}");
+        assert!(said.starts_with("error[output-not-written]: standard output: cannot be written"), "{said}");
+    }
+    for report in ["r.json", "s.json"] {
+        assert!(json(&folder, report)["mesh"].is_object(), "the report comes first");
+    }
 }
 
 #[test]

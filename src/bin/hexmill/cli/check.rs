@@ -7,15 +7,16 @@ use hexmill::mesh::{Distances, PolygonMesh, Triangles, Volumes};
 
 use super::args::CheckArgs;
 use super::failure::Failure;
-use super::files::{check_outputs, format_of, load};
+use super::files::{check_outputs, format_to_read, load};
 use super::mesh_report::{MeshReport, Topology, quality_table};
 use super::progress::Progress;
 use super::region::{load_triangles, triangles_of};
 use super::report::{InputReport, Report, peak_memory_bytes};
+use super::tell::print;
 
 /// Reads a mesh, looks it over and tells; refuses a mesh that does not conform.
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
-    format_of(&args.mesh)?;
+    format_to_read(&args.mesh)?;
     let surface = args.surface.as_deref().map(|path| ("--surface", path));
     let inputs: Vec<_> = std::iter::once(("the mesh", args.mesh.as_path())).chain(surface).collect();
     let outputs: Vec<_> = args.report.iter().map(|path| ("--report", path.as_path())).collect();
@@ -23,8 +24,7 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(quiet);
     let mut loaded = progress.stage("read", || load(&args.mesh))?;
     loaded.warn_of_dropped_faces(quiet);
-    let empty = Document::from(PolygonMesh::default());
-    let document = std::mem::replace(&mut loaded.document, empty);
+    let document = loaded.take_document();
     let mut mesh = progress.stage("measure", || MeshReport::of(&document, 0));
     progress.stage("check", || mesh.check(&document.mesh));
     let mut report = Report::new("check", InputReport::new(&loaded, mesh.counts), mesh);
@@ -41,11 +41,9 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     };
     (report.stages, report.seconds) = progress.finish();
     report.peak_memory_bytes = peak_memory_bytes();
+    args.report.as_deref().map_or(Ok(()), |path| report.save(path))?;
     if !quiet {
-        print!("{}", in_words(args, &report));
-    }
-    if let Some(path) = &args.report {
-        report.save(path)?;
+        print(&in_words(args, &report))?;
     }
     verdict(args, &report)
 }

@@ -4,13 +4,14 @@ use hexmill::io;
 
 use super::args::ConvertArgs;
 use super::failure::Failure;
-use super::files::{check_outputs, format_of, load, save};
+use super::files::{check_outputs, format_to_read, format_to_write, load, save};
 use super::progress::Progress;
+use super::tell::print;
 
 /// Reads a mesh and writes it in another format.
 pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {
-    let format = format_of(&args.output)?;
-    format_of(&args.input)?;
+    let format = format_to_write(&args.output)?;
+    format_to_read(&args.input)?;
     check_outputs(&[("the input", &args.input)], &[("--output", &args.output)])?;
     let progress = Progress::new(quiet);
     let loaded = progress.stage("read", || load(&args.input))?;
@@ -21,9 +22,9 @@ pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {
         .map_err(|e| Failure::write(&args.output, &e))?;
     progress.stage("write", || save(&args.output, &bytes))?;
     progress.finish();
-    if !quiet {
-        let (nodes, cells) = (document.mesh.node_count(), document.mesh.cell_count());
-        println!("{}: {nodes} nodes, {cells} cells, {} bytes", args.output.display(), bytes.len());
+    if quiet {
+        return Ok(());
     }
-    Ok(())
+    let (nodes, cells) = (document.mesh.node_count(), document.mesh.cell_count());
+    print(&format!("{}: {nodes} nodes, {cells} cells, {} bytes\n", args.output.display(), bytes.len()))
 }

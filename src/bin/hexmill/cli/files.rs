@@ -9,6 +9,7 @@ use hexmill::io::{self, Document, Format};
 use hexmill::mesh::PolygonMesh;
 
 use super::failure::Failure;
+use super::tell::tell;
 
 /// What an interruption has to know of the files that are written.
 struct Outputs {
@@ -36,28 +37,45 @@ pub(crate) fn remove_unfinished_when_interrupted() {
             let _ = fs::remove_file(path);
         }
         match outputs.written.as_slice() {
-            [] => eprintln!("interrupted: nothing was written"),
-            written => eprintln!("interrupted after {} was written", written.join(", ")),
+            [] => tell("interrupted: nothing was written\n"),
+            written => tell(&format!("interrupted after {} was written\n", written.join(", "))),
         }
         // The lock is still held, so that no output is renamed into place between here and the end.
         std::process::exit(INTERRUPTED);
     };
     if let Err(error) = ctrlc::set_handler(stop) {
-        eprintln!("warning: Ctrl-C may leave temporary files behind: {error}");
+        tell(&format!("warning: Ctrl-C may leave temporary files behind: {error}\n"));
     }
 }
 
-/// The format that the extension of `path` names.
-pub(crate) fn format_of(path: &Path) -> Result<Format, Failure> {
+/// The format of a file to read, by its extension.
+pub(crate) fn format_to_read(path: &Path) -> Result<Format, Failure> {
+    format_of(path, Format::is_read, "files are only written")
+}
+
+/// The format of a file to write, by its extension.
+pub(crate) fn format_to_write(path: &Path) -> Result<Format, Failure> {
+    format_of(path, Format::is_written, "files are only read")
+}
+
+/// The format of a file to write hexes to, by its extension.
+pub(crate) fn format_for_hexes(path: &Path) -> Result<Format, Failure> {
+    format_to_write(path)?;
+    format_of(path, Format::takes_hexes, "files hold no hexes")
+}
+
+/// The format that the extension of `path` names, which has to be a wanted one; `otherwise` says what those are that are
+/// not.
+fn format_of(path: &Path, is_wanted: fn(Format) -> bool, otherwise: &str) -> Result<Format, Failure> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    Format::from_extension(extension).ok_or_else(|| {
-        let known: Vec<String> = Format::ALL.iter().map(|f| format!(".{f}")).collect();
-        Failure::Usage(format!(
-            "{}: the extension names no mesh format; use one of {}",
-            path.display(),
-            known.join(", ")
-        ))
-    })
+    let reason = match Format::from_extension(extension) {
+        Some(format) if is_wanted(format) => return Ok(format),
+        Some(format) => format!("{} {otherwise}", format.name().to_uppercase()),
+        None => "the extension names no mesh format".to_owned(),
+    };
+    let wanted: Vec<String> =
+        Format::ALL.iter().filter(|&&f| is_wanted(f)).map(|f| format!(".{f}")).collect();
+    Err(Failure::Usage(format!("{}: {reason}; use one of {}", path.display(), wanted.join(", "))))
 }
 
 /// A mesh and the file that it came from.
@@ -70,7 +88,7 @@ pub(crate) struct Loaded {
 
 /// Reads the mesh in `path`.
 pub(crate) fn load(path: &Path) -> Result<Loaded, Failure> {
-    let format = format_of(path)?;
+    let format = format_to_read(path)?;
     let bytes = fs::read(path).map_err(|error| Failure::file("file-not-read", "read", path, &error))?;
     let document = io::read(&bytes, format).map_err(|error| Failure::read(path, &error))?;
     Ok(Loaded { path: path.to_owned(), format, bytes: bytes.len() as u64, document })
@@ -86,10 +104,10 @@ impl Loaded {
     pub(crate) fn warn_of_dropped_faces(&self, quiet: bool) {
         let count = self.document.dropped_faces;
         if count > 0 && !quiet {
-            eprintln!(
-                "warning: {}: {count} faces beside the hexes are left out: they are no boundary faces of these",
+            tell(&format!(
+                "warning: {}: {count} faces beside the hexes are left out: they are no boundary faces of these\n",
                 self.path.display()
-            );
+            ));
         }
     }
 }

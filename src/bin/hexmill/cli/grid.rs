@@ -6,12 +6,14 @@ use hexmill::mesh::{GridOptions, hex_grid};
 
 use super::args::GridArgs;
 use super::failure::Failure;
-use super::files::{check_outputs, format_of, load, save};
+use super::files::{check_outputs, format_for_hexes, format_to_read, load, save};
 use super::progress::Progress;
+use super::tell::print;
 
 /// Makes a grid of hexes around a mesh.
 pub(crate) fn run(args: &GridArgs, quiet: bool) -> Result<(), Failure> {
-    let format = format_of(&args.output)?;
+    let format = format_for_hexes(&args.output)?;
+    format_to_read(&args.input)?;
     check_outputs(&[("the input", args.input.as_path())], &[("--output", args.output.as_path())])?;
     let progress = Progress::new(quiet);
     let around = progress.stage("read", || load(&args.input))?.document;
@@ -31,10 +33,10 @@ pub(crate) fn run(args: &GridArgs, quiet: bool) -> Result<(), Failure> {
         .map_err(|e| Failure::write(&args.output, &e))?;
     progress.stage("write", || save(&args.output, &bytes))?;
     progress.finish();
-    if !quiet {
-        println!("{}: {nodes} nodes, {hexes} hexes, {} bytes", args.output.display(), bytes.len());
+    if quiet {
+        return Ok(());
     }
-    Ok(())
+    print(&format!("{}: {nodes} nodes, {hexes} hexes, {} bytes\n", args.output.display(), bytes.len()))
 }
 
 /// Hexes that are made unless more are asked for: some gigabytes.

@@ -7,7 +7,7 @@ use hexmill::io::Document;
 
 use super::args::HexArgs;
 use super::failure::Failure;
-use super::files::load;
+use super::files::{format_for_hexes, load};
 use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
@@ -15,7 +15,8 @@ use super::report::Report;
 
 /// Reads a closed surface, fills it with hexes, writes and reports.
 pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
-    let format = args.making.prepare(&[("the input", &args.input)])?;
+    let format = format_for_hexes(&args.making.output)?;
+    args.making.prepare(&[("the input", &args.input)])?;
     let options = options(args);
     let progress = Progress::new(quiet);
 

@@ -6,10 +6,11 @@ use hexmill::io::{self, Document, Format};
 
 use super::args::Making;
 use super::failure::Failure;
-use super::files::{Loaded, check_outputs, format_of, save};
+use super::files::{Loaded, check_outputs, format_to_read, save};
 use super::mesh_report::{Counts, MeshReport};
 use super::progress::Progress;
 use super::report::{FileReport, InputReport, Report, peak_memory_bytes};
+use super::tell::print;
 
 /// A mesh that was made.
 pub(super) struct Made<'a> {
@@ -22,18 +23,15 @@ pub(super) struct Made<'a> {
 }
 
 impl Making {
-    /// Refuses outputs that are inputs or each other, and starts the threads; gives the output's format. The first of
-    /// `inputs` is the mesh to read.
-    pub(super) fn prepare(&self, inputs: &[(&str, &Path)]) -> Result<Format, Failure> {
-        let format = format_of(&self.output)?;
+    /// Refuses outputs that are inputs or each other, and starts the threads. The first of `inputs` is the mesh to read.
+    pub(super) fn prepare(&self, inputs: &[(&str, &Path)]) -> Result<(), Failure> {
         if let Some((_, mesh)) = inputs.first() {
-            format_of(mesh)?;
+            format_to_read(mesh)?;
         }
         let report = self.report.as_deref().map(|path| ("--report", path));
         let outputs: Vec<_> = std::iter::once(("--output", self.output.as_path())).chain(report).collect();
         check_outputs(inputs, &outputs)?;
-        self.threads.map_or(Ok(()), use_threads)?;
-        Ok(format)
+        self.threads.map_or(Ok(()), use_threads)
     }
 
     /// Writes the mesh, and begins the record of the command.
@@ -58,7 +56,7 @@ impl Making {
         Ok(Report { output: Some(output), ..report })
     }
 
-    /// Ends the record, tells people what was made unless `quiet`, and saves the record if that is wanted.
+    /// Ends the record, saves it if that is wanted, and tells people what was made unless `quiet`.
     pub(super) fn close(
         &self,
         mut report: Report,
@@ -68,10 +66,8 @@ impl Making {
     ) -> Result<(), Failure> {
         (report.stages, report.seconds) = progress.finish();
         report.peak_memory_bytes = peak_memory_bytes();
-        if !quiet {
-            print!("{}", in_words(&self.output, &report));
-        }
-        self.report.as_deref().map_or(Ok(()), |path| report.save(path))
+        self.report.as_deref().map_or(Ok(()), |path| report.save(path))?;
+        if quiet { Ok(()) } else { print(&in_words(&self.output, &report)) }
     }
 }
 

@@ -17,6 +17,7 @@ mod refine_hexes;
 mod refine_surface;
 mod region;
 mod report;
+mod tell;
 
 use std::process::ExitCode;
 
@@ -39,7 +40,7 @@ pub fn run() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("{failure}");
+            tell::tell(&format!("{failure}\n"));
             failure.exit_code()
         }
     }

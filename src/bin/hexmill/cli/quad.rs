@@ -7,7 +7,7 @@ use hexmill::io::Document;
 
 use super::args::QuadArgs;
 use super::failure::Failure;
-use super::files::load;
+use super::files::{format_to_write, load};
 use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
@@ -15,7 +15,8 @@ use super::report::{FaceReport, Report};
 
 /// Meshes planar faces with quads alone.
 pub(crate) fn run(args: &QuadArgs, quiet: bool) -> Result<(), Failure> {
-    let format = args.making.prepare(&[("the input", &args.input)])?;
+    let format = format_to_write(&args.making.output)?;
+    args.making.prepare(&[("the input", &args.input)])?;
     let options = options(args);
     let progress = Progress::new(quiet);
 

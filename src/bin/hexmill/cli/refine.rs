@@ -7,11 +7,11 @@ use hexmill::refine::QuadOptions;
 
 use super::args::RefineArgs;
 use super::failure::Failure;
-use super::files::load;
+use super::files::{format_for_hexes, format_to_write, load};
 use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
-use super::report::{HexRefinementReport, OptionsReport, Report};
+use super::report::{DroppedFeatures, HexRefinementReport, OptionsReport, Report};
 use super::{refine_hexes, refine_surface};
 
 /// What a refinement made, and of what.
@@ -23,28 +23,34 @@ pub(super) struct Refined {
     pub(super) options: OptionsReport,
     /// Of hexes.
     pub(super) work: Option<HexRefinementReport>,
+    /// Of a surface.
+    pub(super) dropped: Option<DroppedFeatures>,
 }
 
 /// Reads, refines, writes and reports.
 pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
+    let format = format_to_write(&args.making.output)?;
     check_levels(args)?;
     let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
     let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
-    let format = args.making.prepare(&inputs)?;
+    args.making.prepare(&inputs)?;
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
     loaded.warn_of_dropped_faces(quiet);
     let document = loaded.take_document();
     let refined = match document.mesh {
-        AnyMesh::Hexes(_) => refine_hexes::refine(args, document, quiet, &progress),
+        AnyMesh::Hexes(_) => {
+            format_for_hexes(&args.making.output)?;
+            refine_hexes::refine(args, document, quiet, &progress)
+        }
         _ => refine_surface::refine(args, document, &progress),
     };
-    let Refined { before, document, capped, options, work } = refined?;
+    let Refined { before, document, capped, options, work, dropped } = refined?;
 
     let made = Made { command: "refine", input: (&loaded, before), document: &document, capped };
     let report = args.making.write(&made, format, &progress)?;
-    let report = Report { options: Some(options), refinement: work, ..report };
+    let report = Report { options: Some(options), refinement: work, dropped_features: dropped, ..report };
     args.making.close(report, &progress, quiet, in_words)
 }
 
@@ -71,6 +77,11 @@ fn in_words(path: &Path, report: &Report) -> String {
             "  {} elements are larger than asked for: raise --max-levels, now {}",
             mesh.capped,
             report.options.as_ref().map_or(0, |o| o.max_levels)
+        ));
+    }
+    if let Some(DroppedFeatures { polylines, creases, corners }) = report.dropped_features {
+        lines.push(format!(
+            "  {polylines} polylines, {creases} creases and {corners} corners of the input do not go over to the mesh"
         ));
     }
     lines.extend(mesh.quality.as_ref().map(quality_table));

@@ -10,6 +10,7 @@ use super::mesh_report::Counts;
 use super::progress::Progress;
 use super::refine::Refined;
 use super::report::{HexRefinementReport, OptionsReport};
+use super::tell::tell;
 
 /// Refines the hexes of `document`; tells before what will be done, unless `quiet`.
 pub(super) fn refine(
@@ -29,7 +30,7 @@ pub(super) fn refine(
     let plan = HexPlan::new(&mesh, &options, progress).map_err(refused)?;
     drop(mesh);
     if !quiet {
-        eprint!("{}", plan_in_words(&plan));
+        tell(&plan_in_words(&plan));
     }
     let forecast = plan.forecast().clone();
     let refined = plan.carry_out(progress).map_err(refused)?;
@@ -45,6 +46,7 @@ pub(super) fn refine(
         document: Document::from(refined),
         options: told,
         work: Some(work),
+        dropped: None,
     })
 }
 

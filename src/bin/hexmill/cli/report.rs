@@ -4,8 +4,8 @@ use std::path::Path;
 
 use hexmill::hexing::HexingReport;
 use hexmill::io::Format;
-use hexmill::mesh::Distances;
 use hexmill::mesh::NodeId;
+use hexmill::mesh::{Distances, Features};
 use hexmill::refine::hex::{Added, HexForecast, Method, StageReport};
 use serde::Serialize;
 
@@ -30,6 +30,9 @@ pub(crate) struct Report {
     /// Of a refinement of hexes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) refinement: Option<HexRefinementReport>,
+    /// Of a refinement of a surface.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) dropped_features: Option<DroppedFeatures>,
     /// Of the meshing of a solid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) hexing: Option<HexingReport>,
@@ -57,6 +60,7 @@ impl Report {
             input,
             options: None,
             refinement: None,
+            dropped_features: None,
             hexing: None,
             face: None,
             output: None,
@@ -74,6 +78,23 @@ impl Report {
         let mut text = serde_json::to_vec_pretty(self).expect("a report has no maps and no odd keys");
         text.push(b'\n');
         save(path, &text)
+    }
+}
+
+/// Features of a surface that the refined mesh has not.
+#[derive(Clone, Copy, Serialize)]
+pub(crate) struct DroppedFeatures {
+    pub(crate) polylines: usize,
+    pub(crate) creases: usize,
+    pub(crate) corners: usize,
+}
+
+impl DroppedFeatures {
+    /// `None` if there are none.
+    pub(crate) fn of(features: &Features) -> Option<Self> {
+        let Features { polylines, creases, corners, interpolate_boundary: _ } = features;
+        let [polylines, creases, corners] = [polylines.len(), creases.len(), corners.len()];
+        (polylines + creases + corners > 0).then_some(Self { polylines, creases, corners })
     }
 }
 

@@ -79,7 +79,7 @@ pub(crate) struct RefineArgs {
     pub(crate) input: PathBuf,
 
     /// No edge longer than this, in model units
-    #[arg(long, short = 'e', value_name = "L", value_parser = positive)]
+    #[arg(long, short = 'e', value_name = "L", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) edge_length: Option<f64>,
 
     /// Where to refine further, as KIND:NUMBERS:h=SIZE or KIND:NUMBERS:level=N; may be given many times
@@ -95,11 +95,11 @@ pub(crate) struct RefineArgs {
     pub(crate) method: Option<MethodArg>,
 
     /// Turn of the surface's normal that one edge may span, in degrees; surfaces only
-    #[arg(long, value_name = "DEG", value_parser = angle)]
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
     pub(crate) curvature: Option<f64>,
 
     /// How much larger an element may be than its neighbour around a region with a size (1 < G <= 2)
-    #[arg(long, value_name = "G", value_parser = gradation)]
+    #[arg(long, value_name = "G", value_parser = gradation, allow_negative_numbers = true)]
     pub(crate) gradation: Option<f64>,
 
     /// Leave untouched quads as they are (all-quad surfaces whose nodes can be two-coloured)
@@ -130,11 +130,11 @@ pub(crate) struct HexArgs {
     pub(crate) input: PathBuf,
 
     /// How long edges are to be, in model units
-    #[arg(long, short = 'e', value_name = "L", value_parser = positive)]
+    #[arg(long, short = 'e', value_name = "L", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) edge_length: f64,
 
     /// Faces that meet at more than this are parts of different surfaces, in degrees
-    #[arg(long, value_name = "DEG", value_parser = angle, default_value_t = 35.0)]
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true, default_value_t = 35.0)]
     pub(crate) feature_angle: f64,
 
     /// Refuse to make a background of more hexes than this [default: 4000000]
@@ -209,11 +209,11 @@ pub(crate) struct GridArgs {
     pub(crate) output: PathBuf,
 
     /// The edge length of the hexes, in model units
-    #[arg(long, value_name = "H", value_parser = positive)]
+    #[arg(long, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) spacing: f64,
 
     /// How far the grid reaches beyond the mesh, at least
-    #[arg(long, value_name = "M", default_value_t = 0.0)]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, default_value_t = 0.0)]
     pub(crate) margin: f64,
 
     /// Shorten the edges so that the grid ends where the margin does
@@ -233,7 +233,7 @@ pub(crate) struct QuadArgs {
     pub(crate) input: PathBuf,
 
     /// About how long the edges are to be, in model units
-    #[arg(long, short = 'e', value_name = "L", value_parser = positive)]
+    #[arg(long, short = 'e', value_name = "L", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) edge_length: f64,
 
     /// Refuse to make more quads than this [default: 16000000]
