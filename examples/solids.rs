@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use hexmill::Silent;
-use hexmill::hexing::{HexingOptions, hex_solid};
+use hexmill::hexing::{AttemptReport, Background, BodyReport, HexingOptions, hex_solid};
 use hexmill::io::{Format, read};
 use hexmill::mesh::{PolygonMesh, check_hexes};
 
@@ -104,10 +104,29 @@ fn cells_of_row(surface: &PolygonMesh, cells: f64) -> Result<Vec<String>, Failur
         format!("{:.3}", made.worst),
         format!("{:.3}", made.mean),
         format!("{:.3}", 100.0 * made.distance.hausdorff() / (bounds.max - bounds.min).length()),
-        format!("{} of {}", made.core.euler, made.core.solid_euler),
+        format!("{} of {}", made.euler, made.solid_euler),
         format!("{} of {}", curves.captured, curves.found),
         format!("{} of {}", surfaces.captured, surfaces.found),
-        hexed.report.attempts.len().to_string(),
+        hexed.report.bodies.iter().map(tries).collect::<Vec<_>>().join(", "),
         format!("{seconds:.1}"),
     ])
+}
+
+/// The attempts of a body: of each the background, its levels if there are several, and marks where it was given up; the
+/// one that was kept in brackets.
+fn tries(body: &BodyReport) -> String {
+    let of = |(number, attempt): (usize, &AttemptReport)| {
+        let kind = match attempt.background {
+            Background::Swept => "S",
+            Background::Octree => "O",
+            _ => "G",
+        };
+        let levels = if attempt.levels.len() > 1 { attempt.levels.len().to_string() } else { String::new() };
+        let marks =
+            [(attempt.keep_thin, "t"), (attempt.features.is_none(), "!"), (attempt.mesh.is_none(), "!")];
+        let marks: String = marks.iter().filter(|(is, _)| *is).map(|(_, mark)| *mark).collect();
+        let text = format!("{kind}{levels}{marks}");
+        if body.kept == Some(number) { format!("[{text}]") } else { text }
+    };
+    body.attempts.iter().enumerate().map(of).collect::<Vec<_>>().join(" ")
 }

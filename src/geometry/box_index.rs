@@ -1,16 +1,17 @@
 //! A spatial index over many axis-aligned boxes.
 
 use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
 
+use super::grove::Grove;
 use super::{Aabb, Point};
+use crate::{Cancelled, Monitor, Silent};
 
 type Entry = GeomWithData<Rectangle<[f64; 3]>, u32>;
 
-/// Finds, among many boxes, those that touch another one: an R-tree, packed once.
+/// Finds, among many boxes, those that touch another one: R-trees, packed once.
 #[derive(Debug)]
 pub struct BoxIndex {
-    tree: RTree<Entry>,
+    trees: Grove<Entry>,
 }
 
 impl BoxIndex {
@@ -19,13 +20,24 @@ impl BoxIndex {
     /// # Panics
     /// If there are more than 2^32 boxes.
     pub fn new(boxes: impl IntoIterator<Item = Aabb>) -> Self {
+        Self::within(boxes, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`new`](Self::new), told by a monitor when to stop.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    ///
+    /// # Panics
+    /// If there are more than 2^32 boxes.
+    pub fn within(boxes: impl IntoIterator<Item = Aabb>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let entries = boxes.into_iter().enumerate().filter(|(_, b)| !b.is_empty()).map(|(i, b)| {
             let number = u32::try_from(i).expect("more than 2^32 boxes");
             // The middle of an unbounded box would be no number, which the tree cannot sort.
             let (min, max) = (b.min.max(Point::MIN), b.max.min(Point::MAX));
             Entry::new(Rectangle::from_corners(min.to_array(), max.to_array()), number)
         });
-        Self { tree: RTree::bulk_load(entries.collect()) }
+        Ok(Self { trees: Grove::plant(entries.collect(), monitor)? })
     }
 
     /// An index of `points`, numbered from 0.
@@ -35,8 +47,7 @@ impl BoxIndex {
 
     /// The numbers of the boxes that touch `query`, in no order that means anything.
     pub fn touching(&self, query: &Aabb) -> impl Iterator<Item = usize> {
-        let envelope = AABB::from_corners(query.min.to_array(), query.max.to_array());
-        self.tree.locate_in_envelope_intersecting(envelope).map(|entry| entry.data as usize)
+        self.trees.touching(query).map(|entry| entry.data as usize)
     }
 }
 

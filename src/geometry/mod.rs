@@ -8,6 +8,7 @@ mod closest;
 mod eigen;
 mod frame;
 mod gjk;
+mod grove;
 mod hull;
 mod nearest_triangle;
 mod quad_hull;

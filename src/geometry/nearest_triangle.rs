@@ -1,13 +1,15 @@
 //! The point of a surface that is nearest to another point.
 
-use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use rstar::{AABB, PointDistance, RTreeObject};
 
+use super::grove::Grove;
 use super::{Aabb, Point, closest_on_triangle};
+use crate::{Cancelled, Monitor, Silent};
 
-/// Finds, among many triangles, the one that is nearest to a point: an R-tree, packed once.
+/// Finds, among many triangles, the one that is nearest to a point: R-trees, packed once.
 #[derive(Debug)]
 pub struct NearestTriangle {
-    tree: RTree<Leaf>,
+    trees: Grove<Leaf>,
 }
 
 /// A triangle by its corners, and its place in the order in which the triangles were given.
@@ -29,13 +31,24 @@ pub struct Nearest {
 impl NearestTriangle {
     /// An index of triangles with finite corners.
     pub fn new(triangles: impl IntoIterator<Item = [Point; 3]>) -> Self {
+        Self::within(triangles, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`new`](Self::new), told by a monitor when to stop.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn within(
+        triangles: impl IntoIterator<Item = [Point; 3]>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let leaves = triangles.into_iter().enumerate().map(|(index, corners)| Leaf { corners, index });
-        Self { tree: RTree::bulk_load(leaves.collect()) }
+        Ok(Self { trees: Grove::plant(leaves.collect(), monitor)? })
     }
 
     /// The triangle that is nearest to `p`; `None` if there are no triangles.
     pub fn nearest(&self, p: Point) -> Option<Nearest> {
-        let leaf = self.tree.nearest_neighbor(p.to_array())?;
+        let leaf = self.trees.nearest(p)?;
         Some(Nearest { triangle: leaf.index, point: closest_on_triangle(p, leaf.corners) })
     }
 

@@ -1,4 +1,5 @@
-//! The surfaces of the solid as groups of the mesh's boundary faces: where loads and supports go.
+//! The surfaces of the solid as groups of the mesh's boundary faces: where loads and supports go; its bodies as groups of
+//! hexes.
 
 use std::collections::BTreeMap;
 
@@ -27,4 +28,14 @@ pub(super) fn groups_of(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> B
     let of_element = of_element.collect();
     let sides = sides.iter().map(|&(side, _)| side).collect();
     BoundaryGroups::new(sides, Tags { sets, of_element }).expect("sides are ascending, each with its set")
+}
+
+/// A group of hexes for each of so many bodies, named `body-1` for the first, from the body of each hex.
+pub(super) fn body_tags(bodies: usize, body_of: Vec<u32>) -> Tags {
+    let set = |body: usize| TagSet {
+        groups: vec![format!("body-{}", body + 1)],
+        number: i32::try_from(body + 1).ok(),
+        ..TagSet::default()
+    };
+    Tags { sets: (0..bodies).map(set).collect(), of_element: body_of }
 }

@@ -13,11 +13,19 @@ pub mod fit;
 pub mod sheets;
 
 mod attempt;
+mod body;
+mod ground;
 mod groups;
+mod misses;
 mod options;
 mod pipeline;
+mod report;
 mod separate;
 
-pub use attempt::{AttemptReport, Captured, FeatureReport, FitCounts, LostFeature, SheetCounts};
+pub use background::Background;
 pub use options::{HexingError, HexingOptions};
-pub use pipeline::{HexedSolid, HexingReport, hex_solid};
+pub use pipeline::{HexedSolid, hex_solid};
+pub use report::{
+    AttemptReport, BodyReport, Captured, FeatureReport, FitCounts, HexingReport, LostFeature, MeshedReport,
+    ResultReport, SheetCounts,
+};

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::background::BackgroundError;
+use super::background::{Background, BackgroundError};
 use crate::Cancelled;
+use crate::sizing::Region;
 use crate::solid::SolidError;
 
 /// What [`hex_solid`](super::hex_solid) is to do. Lengths are in model units.
@@ -12,8 +13,18 @@ use crate::solid::SolidError;
 pub struct HexingOptions {
     /// How long edges of cells are to be; 0, the default, is refused.
     pub edge_length: f64,
+    /// Where cells are to be smaller; levels count from cells of the edge length, an octree's from twice that.
+    pub regions: Vec<Region>,
+    /// What the core is cut out of.
+    pub background: Background,
+    /// Degrees that the boundary may turn along an edge, 15 to 20 usually: by default cells are made no smaller for that.
+    pub curvature: Option<f64>,
     /// Triangles that meet at more than this are parts of different surfaces, in degrees.
     pub feature_angle: f64,
+    /// How far mesh and solid may be from each other: by default as far as the edge length makes them.
+    pub max_distance: Option<f64>,
+    /// How many levels finer cells may become, so that nothing is missed and as `curvature` wants it.
+    pub max_levels: u8,
     /// Refuse a background mesh of more hexes than this.
     pub max_hexes: u64,
 }
@@ -21,11 +32,22 @@ pub struct HexingOptions {
 impl HexingOptions {
     /// The most hexes that can be asked for: ids of nodes, edges and faces have 32 bits.
     pub const MOST_HEXES: u64 = 1 << 28;
+    /// The most levels that can be asked for.
+    pub const MOST_LEVELS: u8 = 4;
 }
 
 impl Default for HexingOptions {
     fn default() -> Self {
-        Self { edge_length: 0.0, feature_angle: 35.0, max_hexes: 4_000_000 }
+        Self {
+            edge_length: 0.0,
+            regions: Vec::new(),
+            background: Background::Auto,
+            curvature: None,
+            feature_angle: 35.0,
+            max_distance: None,
+            max_levels: 2,
+            max_hexes: 4_000_000,
+        }
     }
 }
 
@@ -66,7 +88,7 @@ impl HexingError {
     /// A stable name of the kind of error.
     pub fn code(&self) -> &'static str {
         match self {
-            Self::Solid(_) => "solid-refused",
+            Self::Solid(error) => error.code(),
             Self::Background(error) => error.code(),
             Self::Option { .. } => "option-out-of-range",
             Self::NothingLeft { .. } => "edge-length-too-large",
@@ -99,6 +121,14 @@ pub(super) fn validate(options: &HexingOptions) -> Result<(), HexingError> {
     let out_of_range = |option, value, wanted| Err(HexingError::Option { option, value, wanted });
     if !(options.edge_length.is_finite() && options.edge_length > 0.0) {
         return out_of_range("edgeLength", options.edge_length, "give a length above 0");
+    }
+    for (option, value) in [("curvature", options.curvature), ("maxDistance", options.max_distance)] {
+        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
+            return out_of_range(option, value, "give a number above 0");
+        }
+    }
+    if options.max_levels > HexingOptions::MOST_LEVELS {
+        return out_of_range("maxLevels", options.max_levels.into(), "give at most 4");
     }
     if options.max_hexes > HexingOptions::MOST_HEXES {
         return out_of_range("maxHexes", options.max_hexes as f64, "give at most 2^28");

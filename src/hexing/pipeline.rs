@@ -1,7 +1,7 @@
 //! All-hex meshes of solids, from the surface to the mesh (section 3).
 //!
-//! 1. The solid, its corners, curves and surfaces ([`solid`](crate::solid)).
-//! 2. A background mesh (`background`, section 4).
+//! 1. The solid, its corners, curves and surfaces ([`solid`](crate::solid)); then for each of its bodies (`body`):
+//! 2. A background mesh (`ground`, section 4).
 //! 3. Its core (`core`, 5.1), where the solid's features are on the core's boundary (`correspondence`, 5.2), sheets and
 //!    the fit (`sheets`, `fit`, section 6): one `attempt`.
 //! 4. Where that missed something, another attempt; the best is kept.
@@ -9,21 +9,21 @@
 //! **Promises.** The mesh conforms, its boundary is a 2-manifold, every hex has a positive Jacobian, at its corners and
 //! inside. What of the solid it does not show is reported with its place.
 
-use serde::Serialize;
-
-use super::attempt::{Attempt, AttemptReport, Try, attempt};
-use super::background::{AlignedGrid, grid};
-use super::direction::best_frame;
-use super::groups::groups_of;
+use super::background::check_size;
+use super::body::{Best, Body, mesh_body};
+use super::ground::coarsest;
+use super::groups::{body_tags, groups_of};
 use super::options::{HexingError, HexingOptions, validate};
+use super::report::{BodyReport, HexingReport, LostFeature, ResultReport};
 use crate::mesh::{HexMesh, NodeId, PolygonMesh};
-use crate::solid::{SolidModel, SolidOptions, SolidReport, SurfaceId};
+use crate::solid::{CurveId, SolidModel, SolidOptions, SurfaceId};
 use crate::{Monitor, Stage};
 
 /// A mesh of a solid.
 #[derive(Clone, Debug)]
 pub struct HexedSolid {
-    /// The mesh. The surfaces of the solid are groups of its boundary faces: `surface-1` and so on.
+    /// The mesh. The surfaces of the solid are groups of its boundary faces: `surface-1` and so on. Where there are several
+    /// bodies they are groups of hexes, `body-1` and so on, and share no node.
     pub mesh: HexMesh,
     /// All boundary quads, outward, each with the surface that it stands for.
     pub faces: Vec<([NodeId; 4], SurfaceId)>,
@@ -31,37 +31,8 @@ pub struct HexedSolid {
     pub report: HexingReport,
 }
 
-/// What was done to mesh a solid, and what came of it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
-pub struct HexingReport {
-    /// The solid that was found in the surface.
-    pub solid: SolidReport,
-    /// What came of each attempt.
-    pub attempts: Vec<AttemptReport>,
-    /// Which attempt was kept.
-    pub kept: usize,
-}
-
-impl HexingReport {
-    /// What came of the attempt that was kept.
-    pub fn result(&self) -> &AttemptReport {
-        &self.attempts[self.kept]
-    }
-}
-
 /// The stage in which the surface becomes a solid.
 const SOLID: Stage = Stage("solid");
-
-/// What is tried, one after the other, until a mesh has nothing left to mend.
-const TRIES: [Try; 3] = [
-    Try { shift: [0.0; 3], keep_thin: false },
-    Try { shift: [0.0; 3], keep_thin: true },
-    Try { shift: [0.5; 3], keep_thin: false },
-];
-
-/// A least scaled Jacobian with which there is no other try.
-const GOOD: f64 = 0.35;
 
 /// Fills the solid that a closed surface bounds with hexes.
 ///
@@ -86,59 +57,97 @@ pub fn hex_solid(
     monitor: &dyn Monitor,
 ) -> Result<HexedSolid, HexingError> {
     validate(options)?;
-    monitor.checkpoint(SOLID, 0.0)?;
     let solid_options = SolidOptions {
         feature_angle: options.feature_angle,
         edge_length: Some(options.edge_length),
         ..SolidOptions::default()
     };
     let (solid, found) = SolidModel::new(surface, &solid_options, monitor)?;
-    monitor.checkpoint(SOLID, 1.0)?;
-    let axes = best_frame(&solid).axes();
-    let mut attempts = Vec::new();
-    let mut best: Option<(usize, Attempt)> = None;
-    for next in TRIES {
-        // Thicker walls mend nothing but the solid's kind.
-        if next.keep_thin && best.as_ref().is_some_and(|(_, best)| best.report.core.has_right_euler()) {
-            continue;
-        }
-        let aligned = AlignedGrid {
-            axes,
-            shift: next.shift,
-            max_hexes: options.max_hexes,
-            edge_length: options.edge_length,
-        };
-        let background = grid(&solid, &aligned, monitor)?;
-        let made = match attempt(background, next, &solid, options.edge_length, monitor) {
-            // Another try may do better.
-            Err(HexingError::NothingLeft { .. } | HexingError::Tangled(_)) if best.is_some() => continue,
-            made => made?,
-        };
-        let number = attempts.len();
-        attempts.push(made.report.clone());
-        if best.as_ref().is_none_or(|(_, best)| is_better(&made.report, &best.report)) {
-            best = Some((number, made));
-        }
-        if attempts[number].is_good() {
-            break;
+    check_size(&solid, coarsest(options), options.max_hexes)?;
+    let mut whole = Whole::new();
+    if solid.body_count() == 1 {
+        let all = |count: usize| 0..count as u32;
+        let (curves, surfaces) = (all(solid.curves().len()), all(solid.surfaces().len()));
+        let ids = (curves.map(CurveId).collect(), surfaces.map(SurfaceId).collect());
+        whole.add(0, &solid, ids, mesh_body(&solid, options, monitor)?);
+    } else {
+        for body in 0..solid.body_count() as u32 {
+            monitor.checkpoint(SOLID, 1.0)?;
+            let alone = solid.body(body, monitor)?;
+            whole.add(body, &alone, ids_of(&solid, body), mesh_body(&alone, options, monitor)?);
         }
     }
-    let (kept, Attempt { mut mesh, faces, .. }) = best.expect("the first attempt gives a mesh or an error");
+    let Whole { mut mesh, faces, body_of, bodies, result } = whole;
+    if mesh.hexes.is_empty() {
+        return Err(HexingError::NothingLeft { edge_length: options.edge_length });
+    }
     mesh.groups = groups_of(&mesh, &faces);
-    Ok(HexedSolid { mesh, faces, report: HexingReport { solid: found, attempts, kept } })
-}
-
-impl AttemptReport {
-    /// Is there nothing that another try could mend?
-    fn is_good(&self) -> bool {
-        self.core.has_right_euler() && self.features.lost() == 0 && self.worst >= GOOD
+    if bodies.len() > 1 {
+        mesh.tags = body_tags(bodies.len(), body_of);
     }
+    Ok(HexedSolid { mesh, faces, report: HexingReport { solid: found, bodies, result } })
 }
 
-/// Is `a` better than `b`: of the solid's kind first, then with more of its features, then nearer, then with better
-/// cells.
-fn is_better(a: &AttemptReport, b: &AttemptReport) -> bool {
-    let rank = |r: &AttemptReport| (!r.core.has_right_euler(), r.features.lost());
-    let merit = |r: &AttemptReport| r.worst;
-    rank(a) < rank(b) || rank(a) == rank(b) && merit(a) > merit(b)
+/// The curves and surfaces of a body as it has them alone, which is in the same order.
+fn ids_of(solid: &SolidModel, body: u32) -> (Vec<CurveId>, Vec<SurfaceId>) {
+    let surfaces: Vec<SurfaceId> = (0..solid.surfaces().len()).map(SurfaceId::new).collect();
+    let is_part = |s: SurfaceId| solid.surfaces()[s.index()].body == body;
+    let curves = (0..solid.curves().len()).map(CurveId::new);
+    let curves = curves.filter(|c| is_part(solid.curves()[c.index()].sides[0])).collect();
+    (curves, surfaces.into_iter().filter(|&s| is_part(s)).collect())
+}
+
+/// The meshes of the bodies so far.
+struct Whole {
+    mesh: HexMesh,
+    faces: Vec<([NodeId; 4], SurfaceId)>,
+    /// The body of each hex.
+    body_of: Vec<u32>,
+    bodies: Vec<BodyReport>,
+    result: ResultReport,
+}
+
+impl Whole {
+    fn new() -> Self {
+        let (mesh, result) = (HexMesh::default(), ResultReport::none());
+        Self { mesh, faces: Vec::new(), body_of: Vec::new(), bodies: Vec::new(), result }
+    }
+
+    /// Adds a body whose curves and surfaces have other ids in the solid.
+    fn add(&mut self, body: u32, solid: &SolidModel, ids: (Vec<CurveId>, Vec<SurfaceId>), made: Body) {
+        let Body { best, mut report } = made;
+        let (curves, surfaces) = ids;
+        let features = report.attempts.iter_mut().filter_map(|attempt| attempt.features.as_mut());
+        features.for_each(|features| features.renumber(&curves, &surfaces));
+        match best {
+            Some(Best { meshed, number, .. }) => {
+                let kept = &report.attempts[number];
+                let (features, mesh) =
+                    kept.features.as_ref().zip(kept.mesh.as_ref()).expect("a mesh is kept");
+                self.result.add(&kept.core, features, mesh);
+                self.append(body, meshed.mesh, meshed.faces, &surfaces);
+            }
+            None => {
+                let place = solid.bounds().center().to_array();
+                self.result.solid_euler += solid.euler_number();
+                self.result.lost_bodies.push(LostFeature { id: body, place, size: solid.diagonal() });
+            }
+        }
+        self.bodies.push(report);
+    }
+
+    fn append(
+        &mut self,
+        body: u32,
+        mesh: HexMesh,
+        faces: Vec<([NodeId; 4], SurfaceId)>,
+        surfaces: &[SurfaceId],
+    ) {
+        let first = self.mesh.positions.len() as u32;
+        let node = |n: NodeId| NodeId(first + n.0);
+        self.mesh.positions.extend(mesh.positions);
+        self.body_of.resize(self.body_of.len() + mesh.hexes.len(), body);
+        self.mesh.hexes.extend(mesh.hexes.into_iter().map(|hex| hex.map(node)));
+        self.faces.extend(faces.into_iter().map(|(quad, s)| (quad.map(node), surfaces[s.index()])));
+    }
 }

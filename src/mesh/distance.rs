@@ -64,6 +64,19 @@ impl Distances {
         Ok(Self { mesh_to_surface, surface_to_mesh })
     }
 
+    /// Those of surfaces without a sample.
+    pub(crate) fn none() -> Self {
+        Self { mesh_to_surface: Distance::none(), surface_to_mesh: Distance::none() }
+    }
+
+    /// Those of two pairs of surfaces together.
+    pub(crate) fn joined(&self, other: &Self) -> Self {
+        Self {
+            mesh_to_surface: self.mesh_to_surface.joined(&other.mesh_to_surface),
+            surface_to_mesh: self.surface_to_mesh.joined(&other.surface_to_mesh),
+        }
+    }
+
     /// The greater of the greatest distances both ways, the Hausdorff distance of the samples.
     pub fn hausdorff(&self) -> f64 {
         self.mesh_to_surface.max.max(self.surface_to_mesh.max)
@@ -86,16 +99,37 @@ impl Triangles<'_> {
     }
 }
 
+/// The samples of a surface that are more than `limit` from another one.
+pub(crate) fn samples_beyond(
+    limit: f64,
+    from: Triangles<'_>,
+    to: Triangles<'_>,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Point>, Cancelled> {
+    let (samples, distances) = sampled(from, to, monitor)?;
+    Ok(samples.into_iter().zip(distances).filter(|(_, distance)| *distance > limit).map(|(p, _)| p).collect())
+}
+
+/// The samples of a surface, and how far each is from another one.
+fn sampled(
+    from: Triangles<'_>,
+    to: Triangles<'_>,
+    monitor: &dyn Monitor,
+) -> Result<(Vec<Point>, Vec<f64>), Cancelled> {
+    let nearest = NearestTriangle::within(to.corners(), monitor)?;
+    let samples = from.samples();
+    let distance = |p: Point| nearest.closest_point(p).map_or(f64::INFINITY, |q| q.distance(p));
+    let mut distances: Vec<f64> = Vec::with_capacity(samples.len());
+    for batch in samples.chunks(BATCH) {
+        monitor.proceed()?;
+        parallel::extend(&mut distances, batch.len(), |k| distance(batch[k]));
+    }
+    Ok((samples, distances))
+}
+
 impl Distance {
     fn from_to(from: Triangles<'_>, to: Triangles<'_>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let nearest = NearestTriangle::new(to.corners());
-        let samples = from.samples();
-        let distance = |p: Point| nearest.closest_point(p).map_or(f64::INFINITY, |q| q.distance(p));
-        let mut distances: Vec<f64> = Vec::with_capacity(samples.len());
-        for batch in samples.chunks(BATCH) {
-            monitor.proceed()?;
-            parallel::extend(&mut distances, batch.len(), |k| distance(batch[k]));
-        }
+        let (samples, distances) = sampled(from, to, monitor)?;
         let farthest = (0..samples.len()).max_by(|&i, &j| distances[i].total_cmp(&distances[j]));
         let count = samples.len() as f64;
         Ok(Self {
@@ -105,6 +139,27 @@ impl Distance {
             farthest: farthest.map_or([0.0; 3], |i| samples[i].to_array()),
             samples: samples.len(),
         })
+    }
+
+    fn none() -> Self {
+        Self { max: 0.0, mean: 0.0, rms: 0.0, farthest: [0.0; 3], samples: 0 }
+    }
+
+    /// That of both sets of samples together.
+    fn joined(&self, other: &Self) -> Self {
+        if self.samples == 0 {
+            return other.clone();
+        }
+        let samples = self.samples + other.samples;
+        let together = |a: f64, b: f64| (a * self.samples as f64 + b * other.samples as f64) / samples as f64;
+        let farther = if other.max > self.max { other } else { self };
+        Self {
+            max: farther.max,
+            mean: together(self.mean, other.mean),
+            rms: together(self.rms * self.rms, other.rms * other.rms).sqrt(),
+            farthest: farther.farthest,
+            samples,
+        }
     }
 
     /// In a line.
@@ -137,6 +192,25 @@ mod tests {
             Distance { max: 2.0, mean: 2.0, rms: 2.0, farthest: [1.0, 1.0, 0.0], samples: 4 }
         );
         assert_eq!(distances.hausdorff(), 2.0);
+    }
+
+    #[test]
+    fn of_two_pairs_together() {
+        let one = between(&corners(0.0), &corners(2.0));
+        let two = one.joined(&between(&corners(0.0), &corners(1.0)));
+        let Distance { max, mean, rms, farthest, samples } = two.mesh_to_surface;
+        assert_eq!((max, mean, farthest, samples), (2.0, 1.5, [1.0, 1.0, 0.0], 8));
+        assert!((rms - 2.5_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(Distances::none().joined(&one), one);
+    }
+
+    #[test]
+    fn samples_beyond_a_limit() {
+        let (mesh, surface) = (corners(0.0), corners(2.0));
+        let triangle = |positions| Triangles { positions, triangles: &[[0, 1, 2]] };
+        let beyond = |limit| samples_beyond(limit, triangle(&mesh), triangle(&surface), &Silent).unwrap();
+        assert_eq!(beyond(1.9).len(), 4);
+        assert_eq!(beyond(2.0), []);
     }
 
     #[test]

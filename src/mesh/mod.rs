@@ -20,6 +20,7 @@ mod weld;
 
 pub use boundary_groups::BoundaryGroups;
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
+pub(crate) use distance::samples_beyond;
 pub use distance::{Distance, Distances, Triangles};
 pub use faces::Faces;
 pub use grid::{GridError, GridOptions, hex_grid};

@@ -23,7 +23,7 @@ pub(super) fn crossings(
 ) -> Result<Vec<Crossing>, Cancelled> {
     let mesh = &shell.mesh;
     let bounds = |t: usize| Aabb::around(&mesh.at(t));
-    let index = BoxIndex::new((0..mesh.triangles.len()).map(bounds));
+    let index = BoxIndex::within((0..mesh.triangles.len()).map(bounds), monitor)?;
     parallel::try_gather(mesh.triangles.len(), monitor, |t, found| {
         let first = found.len();
         for u in index.touching(&bounds(t).grown(tolerance)).filter(|&u| u > t) {

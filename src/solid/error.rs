@@ -86,3 +86,20 @@ pub enum SolidError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
+
+impl SolidError {
+    /// A stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Option { .. } => "option-out-of-range",
+            Self::Empty => "surface-empty",
+            Self::Broken(_) => "surface-invalid",
+            Self::Open { .. } => "surface-open",
+            Self::NonManifold { .. } => "surface-non-manifold",
+            Self::SelfIntersection { .. } => "surface-self-intersecting",
+            Self::OneSided { .. } => "surface-one-sided",
+            Self::NoVolume { .. } => "surface-without-volume",
+            Self::Cancelled(_) => "cancelled",
+        }
+    }
+}

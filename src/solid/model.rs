@@ -12,7 +12,7 @@ use super::shell::Shell;
 use super::surfaces::{flood, surfaces};
 use crate::geometry::{Aabb, Point, area_vector};
 use crate::mesh::{FaceId, PolygonMesh};
-use crate::{Monitor, Stage, parallel};
+use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// A solid by its boundary: a closed surface of triangles that look outward, in surfaces that meet at curves, which meet
 /// at corners. There may be several disjoint bodies, and voids within them.
@@ -69,28 +69,36 @@ impl SolidModel {
         if let Some(length) = options.edge_length {
             report.noise_edges = drop_noise(&shell, &mut is_feature, &tagged, length);
         }
-        let solid = Self::of_parts(Parts { shell, is_feature, body_of, corner_angle: options.corner_angle });
+        monitor.checkpoint(Self::STAGE, 0.7)?;
+        let parts = Parts { shell, is_feature, body_of, corner_angle: options.corner_angle };
+        let solid = Self::of_parts(parts, monitor)?;
         monitor.checkpoint(Self::STAGE, 1.0)?;
         solid.count(&mut report);
         Ok((solid, report))
     }
 
-    fn of_parts(parts: Parts) -> Self {
+    fn of_parts(parts: Parts, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let shell = &parts.shell;
         let normals = normals(shell);
+        monitor.proceed()?;
         let surface_of = flood(shell, &parts.is_feature);
+        monitor.proceed()?;
         let CurveGraph { corners, curves } =
             curve_graph(shell, &normals, &parts.is_feature, &surface_of, parts.corner_angle);
+        monitor.proceed()?;
         let surfaces = surfaces(shell, &surface_of, &parts.body_of, &curves);
         let points_of =
             |c: &Curve| c.vertices.iter().map(|&v| shell.mesh.points[v as usize]).collect::<Vec<_>>();
-        Self {
-            all: TriangleSearch::new(shell, 0..shell.mesh.triangles.len()),
-            by_surface: parallel::collect(surfaces.len(), |s| {
-                TriangleSearch::new(shell, surfaces[s].triangles.iter().map(|&t| t as usize))
-            }),
-            by_curve: parallel::collect(curves.len(), |c| CurveSearch::new(points_of(&curves[c]))),
-            sides: Sides::new(shell, &normals),
+        let by_surface = parallel::try_collect(surfaces.len(), monitor, |s| {
+            TriangleSearch::new(shell, surfaces[s].triangles.iter().map(|&t| t as usize), monitor)
+        })?;
+        Ok(Self {
+            all: TriangleSearch::new(shell, 0..shell.mesh.triangles.len(), monitor)?,
+            by_surface: by_surface.into_iter().collect::<Result<_, _>>()?,
+            by_curve: parallel::try_collect(curves.len(), monitor, |c| {
+                CurveSearch::new(points_of(&curves[c]))
+            })?,
+            sides: Sides::new(shell, &normals, monitor)?,
             bounds: Aabb::around(&shell.mesh.points),
             parts,
             normals,
@@ -98,20 +106,25 @@ impl SolidModel {
             corners,
             curves,
             surfaces,
-        }
+        })
     }
 
-    /// One of the disjoint bodies as a solid of its own, with its voids and features.
-    pub fn body(&self, body: u32) -> Self {
+    /// One of the disjoint bodies as a solid of its own, with its voids and features: its corners, curves and surfaces are
+    /// in the same order as here.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn body(&self, body: u32, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let Parts { shell, is_feature, body_of, corner_angle } = &self.parts;
         let kept: Vec<usize> = (0..body_of.len()).filter(|&t| body_of[t] == body).collect();
         let part = shell.part(&kept);
-        Self::of_parts(Parts {
+        let parts = Parts {
             is_feature: kept.iter().flat_map(|&t| is_feature[3 * t..3 * t + 3].iter().copied()).collect(),
             body_of: vec![0; kept.len()],
             shell: part,
             corner_angle: *corner_angle,
-        })
+        };
+        Self::of_parts(parts, monitor)
     }
 
     /// Number of disjoint bodies.

@@ -95,6 +95,23 @@ pub struct SolidReport {
     pub euler: i64,
 }
 
+impl SolidReport {
+    /// What was mended, in words; nothing if the surface was sound.
+    pub fn mended(&self) -> Vec<String> {
+        let kinds = [
+            (self.close_points, "points welded that were close to others"),
+            (self.degenerate_triangles, "triangles dropped that had a point twice"),
+            (self.duplicate_triangles, "triangles dropped that were there twice"),
+            (self.wall_triangles, "triangles of inner walls dropped"),
+            (self.filled_holes.len(), "holes filled"),
+            (self.turned_triangles, "triangles turned outward"),
+            (self.flipped_triangles, "flat triangles flipped"),
+            (self.split_points, "points split where parts touched"),
+        ];
+        kinds.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect()
+    }
+}
+
 /// A hole that was filled.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FilledHole {

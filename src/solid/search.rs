@@ -6,7 +6,7 @@
 
 use super::shell::{Shell, next, previous, triangle_of};
 use crate::geometry::{Nearest, NearestTriangle, Point, segment_weights, triangle_weights};
-use crate::parallel;
+use crate::{Cancelled, Monitor, parallel};
 
 /// The point of the boundary nearest to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,8 +41,13 @@ pub(super) struct TriangleSearch {
 }
 
 impl TriangleSearch {
-    pub fn new(shell: &Shell, triangles: impl IntoIterator<Item = usize>) -> Self {
-        Self { tree: NearestTriangle::new(triangles.into_iter().map(|t| shell.mesh.at(t))) }
+    pub fn new(
+        shell: &Shell,
+        triangles: impl IntoIterator<Item = usize>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let corners = triangles.into_iter().map(|t| shell.mesh.at(t));
+        Ok(Self { tree: NearestTriangle::within(corners, monitor)? })
     }
 
     pub fn nearest(&self, p: Point) -> Nearest {
@@ -92,16 +97,16 @@ pub(super) struct Sides {
 }
 
 impl Sides {
-    pub fn new(shell: &Shell, normals: &[Point]) -> Self {
+    pub fn new(shell: &Shell, normals: &[Point], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let out = shell.out_of();
-        let vertex_normals = parallel::collect(out.len(), |v| {
+        let vertex_normals = parallel::try_collect(out.len(), monitor, |v| {
             let share = |k: u32| {
                 let (a, b) = (shell.along(k), -shell.along(previous(k)));
                 normals[triangle_of(k)] * libm::atan2(a.cross(b).length(), a.dot(b))
             };
             shell.fan(out[v]).map(share).sum()
-        });
-        Self { vertex_normals }
+        })?;
+        Ok(Self { vertex_normals })
     }
 
     /// The outward unit normal at a vertex.

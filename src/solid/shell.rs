@@ -94,22 +94,22 @@ impl Shell {
         Self { mesh, twins }
     }
 
-    /// The shell of some of the triangles, ascending, to which all their neighbours belong.
+    /// The shell of some of the triangles, ascending, to which all their neighbours belong. Vertices stay in their order.
     pub fn part(&self, kept: &[usize]) -> Self {
         let mut place = vec![NONE; self.mesh.triangles.len()];
-        let mut vertex = vec![NONE; self.mesh.points.len()];
-        let mut part = Self::default();
+        let mut is_used = vec![false; self.mesh.points.len()];
         for (i, &t) in kept.iter().enumerate() {
             place[t] = i as u32;
-            part.mesh.triangles.push(self.mesh.triangles[t].map(|v| {
-                let new = &mut vertex[v as usize];
-                if *new == NONE {
-                    *new = part.mesh.points.len() as u32;
-                    part.mesh.points.push(self.mesh.points[v as usize]);
-                }
-                *new
-            }));
+            self.mesh.triangles[t].iter().for_each(|&v| is_used[v as usize] = true);
         }
+        let mut part = Self::default();
+        let mut vertex = vec![NONE; is_used.len()];
+        for v in (0..is_used.len()).filter(|&v| is_used[v]) {
+            vertex[v] = part.mesh.points.len() as u32;
+            part.mesh.points.push(self.mesh.points[v]);
+        }
+        part.mesh.triangles =
+            kept.iter().map(|&t| self.mesh.triangles[t].map(|v| vertex[v as usize])).collect();
         let twin = |k: u32| 3 * place[triangle_of(k)] + k % 3;
         part.twins =
             kept.iter().flat_map(|&t| (0..3).map(move |i| 3 * t + i)).map(|k| twin(self.twins[k])).collect();

@@ -1,20 +1,24 @@
 //! Which background suits a solid.
 
 use glam::DMat3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::area_vector;
 use crate::solid::SolidModel;
 
-/// A kind of background.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+/// The mesh that the core is cut out of (section 4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub enum Kind {
-    /// A quad mesh of the principal face, swept (section 4.2).
+pub enum Background {
+    /// The one that is likely to capture the solid best: see [`choose`].
+    #[default]
+    Auto,
+    /// A quad mesh of the principal face, swept along the principal direction (section 4.2).
     Swept,
     /// A grid whose lines stand in planar surfaces.
     Grid,
-    /// Such a grid, refined.
+    /// Such a grid of twice the edge length, refined at the boundary, and more where walls are thin, gaps narrow and
+    /// curves short.
     Octree,
 }
 
@@ -31,12 +35,14 @@ pub struct SweptScore {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Choice {
-    /// The kind.
-    pub kind: Kind,
+    /// The kind; never `Auto`.
+    pub kind: Background,
     /// The share of the boundary's area that a grid captures.
     pub grid_capture: f64,
     /// The share that the swept mesh captures, if there is one.
     pub swept_capture: Option<f64>,
+    /// The least scaled Jacobian of the quads that would be swept, if they were made.
+    pub worst_quad: Option<f64>,
 }
 
 /// A swept mesh has to capture so much more of the area than a grid: a grid's cells are better.
@@ -46,17 +52,33 @@ const LEAST_QUAD: f64 = 0.15;
 /// The cosine of 2 degrees.
 const PARALLEL: f64 = 0.999_390_827;
 
-/// Chooses between backgrounds, by the boundary's area that they capture. `wants_levels` tells that cells of several sizes
-/// are wanted, which an octree alone has.
-pub fn choose(solid: &SolidModel, axes: DMat3, swept: Option<SweptScore>, wants_levels: bool) -> Choice {
-    let grid_capture = grid_capture(solid, axes);
-    let is_better = |s: &SweptScore| s.worst_quad > LEAST_QUAD && s.surface_capture >= grid_capture + GAIN;
-    let kind = match swept {
-        _ if wants_levels => Kind::Octree,
-        Some(swept) if is_better(&swept) => Kind::Swept,
-        _ => Kind::Grid,
+/// May a sweep that captures such a share of the area be chosen? Its quads need not be made if not.
+pub fn may_sweep(solid: &SolidModel, axes: DMat3, surface_capture: f64) -> bool {
+    surface_capture >= grid_capture(solid, axes) + GAIN
+}
+
+/// Chooses between backgrounds, by the boundary's area that they capture, unless one is `wanted`. `wants_levels` tells
+/// that cells of several sizes are wanted all over the boundary: then it is an octree.
+pub fn choose(
+    solid: &SolidModel,
+    axes: DMat3,
+    wanted: Background,
+    swept: Option<SweptScore>,
+    wants_levels: bool,
+) -> Choice {
+    let is_better = |s: &SweptScore| s.worst_quad > LEAST_QUAD && may_sweep(solid, axes, s.surface_capture);
+    let kind = match (wanted, swept) {
+        (Background::Auto, _) if wants_levels => Background::Octree,
+        (Background::Auto, Some(swept)) if is_better(&swept) => Background::Swept,
+        (Background::Auto, _) => Background::Grid,
+        (wanted, _) => wanted,
     };
-    Choice { kind, grid_capture, swept_capture: swept.map(|s| s.surface_capture) }
+    Choice {
+        kind,
+        grid_capture: grid_capture(solid, axes),
+        swept_capture: swept.map(|s| s.surface_capture),
+        worst_quad: swept.map(|s| s.worst_quad),
+    }
 }
 
 /// The share of the boundary's area that is perpendicular to one of the axes, up to 2 degrees.
@@ -90,12 +112,14 @@ mod tests {
         let solid = solid(&cylinder(60));
         let choice = |worst_quad, wants_levels| {
             let swept = Some(SweptScore { surface_capture: 1.0, worst_quad });
-            choose(&solid, DMat3::IDENTITY, swept, wants_levels).kind
+            choose(&solid, DMat3::IDENTITY, Background::Auto, swept, wants_levels).kind
         };
         assert_eq!(
             [choice(0.5, false), choice(0.1, false), choice(0.5, true)],
-            [Kind::Swept, Kind::Grid, Kind::Octree]
+            [Background::Swept, Background::Grid, Background::Octree]
         );
-        assert_eq!(choose(&solid, DMat3::IDENTITY, None, false).kind, Kind::Grid);
+        let without = |wanted| choose(&solid, DMat3::IDENTITY, wanted, None, false).kind;
+        assert_eq!(without(Background::Auto), Background::Grid);
+        assert_eq!(without(Background::Octree), Background::Octree, "as it was wanted");
     }
 }

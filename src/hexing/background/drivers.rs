@@ -1,8 +1,9 @@
 //! What another try is to refine (design, section 5): where one failed, cells become a level finer.
 
+use super::pieces::pieces;
 use crate::geometry::Point;
 use crate::sizing::{Region, Shape, Target};
-use crate::solid::{CurveId, SolidModel};
+use crate::solid::{CurveId, SolidModel, SurfaceId};
 
 /// Something that a try missed.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,18 @@ impl Failure {
             points.extend((0..steps).map(|k| a.lerp(b, f64::from(k) / f64::from(steps))));
         }
         points.extend(vertices.last().map(|&v| solid.points()[v as usize]));
+        Self { points, level }
+    }
+
+    /// A surface that was lost among cells of a level and an edge length.
+    pub fn of_surface(solid: &SolidModel, surface: SurfaceId, level: u8, edge_length: f64) -> Self {
+        let mut points = Vec::new();
+        let is_small =
+            |&[a, b, c]: &[Point; 3]| a.distance(b).max(b.distance(c)).max(c.distance(a)) <= edge_length;
+        for &t in &solid.surfaces()[surface.index()].triangles {
+            let corners = solid.corners_of(t as usize);
+            pieces(corners, is_small, &mut |[a, b, c]| points.push((a + b + c) / 3.0));
+        }
         Self { points, level }
     }
 }
@@ -80,6 +93,18 @@ mod tests {
             let lost = Failure::of_curve(&solid, CurveId(k), 0, 0.3);
             assert!(lost.points.windows(2).all(|pair| pair[0].distance(pair[1]) <= 0.3 + 1e-12));
             assert!(lost.points.iter().all(|&p| solid.nearest_on_curve(CurveId(k), p).distance < 1e-12));
+        }
+    }
+
+    #[test]
+    fn a_surface_is_lost_all_over() {
+        let solid = solid(&cylinder(6));
+        for k in 0..solid.surfaces().len() as u32 {
+            let lost = Failure::of_surface(&solid, SurfaceId(k), 0, 0.3);
+            assert!(lost.points.iter().all(|&p| solid.nearest_on_surface(SurfaceId(k), p).distance < 1e-12));
+            let near = |p: Point| lost.points.iter().any(|q| q.distance(p) <= 0.3);
+            let corners = solid.surfaces()[k as usize].triangles.iter();
+            assert!(corners.flat_map(|&t| solid.corners_of(t as usize)).all(near));
         }
     }
 }

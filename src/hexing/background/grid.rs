@@ -10,8 +10,10 @@
 use glam::DMat3;
 
 use super::lines::{Plane, lines};
+use super::swept::SweepError;
 use super::touched::touched;
 use crate::geometry::{Aabb, Point};
+use crate::hexing::face::FaceError;
 use crate::mesh::HexMesh;
 use crate::refine::hex::HexRefineError;
 use crate::solid::{SolidModel, Surface, SurfaceClass};
@@ -62,9 +64,15 @@ pub enum BackgroundError {
         /// The greatest coordinate, without its sign.
         reach: f64,
     },
-    /// The grid cannot be refined.
+    /// The background cannot be refined.
     #[error(transparent)]
     Refine(HexRefineError),
+    /// No direction suggests itself for a sweep.
+    #[error("the solid has neither a plane nor an axis to sweep along; choose another background")]
+    NoDirection,
+    /// There is no principal face to sweep.
+    #[error("the solid cannot be swept: {0}; choose another background")]
+    Face(FaceError),
     /// The monitor asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -78,6 +86,8 @@ impl BackgroundError {
             Self::TooManyHexes { .. } => "too-many-hexes",
             Self::TooFewDigits { .. } => "too-few-digits",
             Self::Refine(error) => error.code(),
+            Self::NoDirection => "no-direction",
+            Self::Face(error) => error.code(),
             Self::Cancelled(_) => "cancelled",
         }
     }
@@ -88,6 +98,16 @@ impl From<HexRefineError> for BackgroundError {
         match error {
             HexRefineError::Cancelled(cancelled) => Self::Cancelled(cancelled),
             error => Self::Refine(error),
+        }
+    }
+}
+
+impl From<SweepError> for BackgroundError {
+    fn from(error: SweepError) -> Self {
+        match error {
+            SweepError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            SweepError::TooManyHexes { hexes, limit } => Self::TooManyHexes { hexes, limit },
+            SweepError::Face(error) => Self::Face(error),
         }
     }
 }
@@ -118,7 +138,7 @@ pub fn grid(
     monitor: &dyn Monitor,
 ) -> Result<HexMesh, BackgroundError> {
     let &AlignedGrid { edge_length, axes, shift, max_hexes } = options;
-    check(solid, options)?;
+    check_size(solid, edge_length, max_hexes)?;
     monitor.checkpoint(BACKGROUND, 0.0)?;
     let to_grid = axes.transpose();
     let points = parallel::try_collect(solid.points().len(), monitor, |p| to_grid * solid.points()[p])?;
@@ -148,9 +168,11 @@ pub fn grid(
     Ok(mesh)
 }
 
-/// Refuses what cannot be made, before any work.
-fn check(solid: &SolidModel, options: &AlignedGrid) -> Result<(), BackgroundError> {
-    let &AlignedGrid { edge_length, max_hexes, .. } = options;
+/// Refuses what cannot be made, before any work: of several bodies too.
+///
+/// # Errors
+/// See [`BackgroundError`].
+pub fn check_size(solid: &SolidModel, edge_length: f64, max_hexes: u64) -> Result<(), BackgroundError> {
     if !(edge_length > 0.0 && edge_length.is_finite()) {
         return Err(BackgroundError::EdgeLength(edge_length));
     }

@@ -1,11 +1,12 @@
 //! Background meshes: hexes around a solid, out of which its core is cut (section 4).
 //!
 //! - [`grid`]: a grid along the solid's own axes whose lines stand in its planar surfaces.
-//! - [`swept`]: the quads of its principal face, layer by layer along a direction.
-//! - [`octree`]: such a grid, refined where the solid or the user wants smaller cells.
+//! - [`Sweep`]: the quads of its principal face, layer by layer along a direction.
+//! - [`octree`]: a grid, refined where the solid or the user wants smaller cells; [`refined`] does so with any.
 //! - [`choose`] tells which background suits a solid; [`retry`] what to refine where one failed.
 
 mod choose;
+mod columns;
 mod demand;
 mod drivers;
 mod grid;
@@ -16,8 +17,8 @@ mod rows;
 mod swept;
 mod touched;
 
-pub use choose::{Choice, Kind, SweptScore, choose, grid_capture};
+pub use choose::{Background, Choice, SweptScore, choose, grid_capture, may_sweep};
 pub use drivers::{Failure, Retry, retry};
-pub use grid::{AlignedGrid, BackgroundError, estimate_hexes, grid};
-pub use octree::{Octree, OctreeMesh, octree};
-pub use swept::{SweepError, swept};
+pub use grid::{AlignedGrid, BackgroundError, check_size, estimate_hexes, grid};
+pub use octree::{Octree, OctreeMesh, Wanted, octree, refined};
+pub use swept::{Sweep, SweepError};

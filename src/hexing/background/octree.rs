@@ -1,33 +1,41 @@
-//! An aligned grid, refined where the solid or the user wants smaller cells.
+//! Backgrounds refined where the solid or the user wants smaller cells (section 4.3).
 //!
-//! 1. An aligned grid, coarser than the edge length wanted if asked for.
-//! 2. Points of the boundary where smaller cells are wanted, by level (`demand`).
-//! 3. Conforming refinement around them ([`refine::hex`](crate::refine::hex)), as far that the transitions to coarser
-//!    cells are two of these away from the boundary.
+//! 1. Points of the boundary where smaller cells are wanted, by level (`demand`).
+//! 2. Conforming refinement around them ([`refine::hex`](crate::refine::hex)), as far that the transitions to coarser
+//!    cells are two of these away from the boundary: by halves, or by thirds where halves would spread over everything.
+//!
+//! Any background can be refined so; an octree is an aligned grid, coarser than wanted, with its boundary refined.
 
 use super::demand::Demands;
 use super::grid::{AlignedGrid, BackgroundError, grid};
 use crate::Monitor;
 use crate::mesh::HexMesh;
-use crate::refine::hex::{HexOptions, refine_hexes};
+use crate::refine::hex::{HexOptions, HexPlan, HexRefineError, Method};
 use crate::sizing::{Region, Shape, Target};
 use crate::solid::SolidModel;
+
+/// Where cells of a background are to be smaller. Levels count from its cells.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Wanted<'a> {
+    /// How many levels finer all cells at the boundary are.
+    pub boundary_level: u8,
+    /// Degrees that the boundary may turn along an edge, 15 to 20 usually; `None`: as it likes.
+    pub curvature: Option<f64>,
+    /// Are cells to be smaller in thin walls and narrow gaps, and at short curves?
+    pub details: bool,
+    /// How many levels finer than the boundary's cells may become for these two.
+    pub levels: u8,
+    /// Where else cells are to be smaller.
+    pub regions: &'a [Region],
+}
 
 /// What [`octree`] is to make.
 #[derive(Clone, Copy, Debug)]
 pub struct Octree<'a> {
     /// The grid: its edge length is that of cells that nothing wants smaller.
     pub grid: AlignedGrid,
-    /// How many levels finer than the grid all cells at the boundary are.
-    pub boundary_level: u8,
-    /// Degrees that the boundary may turn along an edge, 15 to 20 usually; `None`: as it likes.
-    pub curvature: Option<f64>,
-    /// Are cells to be smaller in thin walls and narrow gaps, and at short curves?
-    pub details: bool,
-    /// How many levels finer than the boundary's cells may become for that.
-    pub levels: u8,
-    /// Where else cells are to be smaller; levels count from the grid's cells.
-    pub regions: &'a [Region],
+    /// Where they are to be smaller.
+    pub wanted: Wanted<'a>,
 }
 
 /// A background of cells of several levels.
@@ -35,7 +43,7 @@ pub struct Octree<'a> {
 pub struct OctreeMesh {
     /// The mesh.
     pub mesh: HexMesh,
-    /// How many times the grid was refined to make each hex.
+    /// How many times the background was refined to make each hex.
     pub level: Vec<u8>,
 }
 
@@ -51,26 +59,84 @@ pub fn octree(
     options: &Octree<'_>,
     monitor: &dyn Monitor,
 ) -> Result<OctreeMesh, BackgroundError> {
-    let &Octree { grid: coarse, boundary_level, curvature, details, levels, regions } = options;
-    let mesh = grid(solid, &coarse, monitor)?;
-    let edge_of = |level: u8| coarse.edge_length / f64::from(1u32 << level.min(31));
-    let demands = Demands { edge_length: edge_of(boundary_level), curvature, details, finest: levels };
-    let mut wanted = regions.to_vec();
-    wanted.extend((1..=boundary_level).map(|level| {
+    let mesh = grid(solid, &options.grid, monitor)?;
+    let AlignedGrid { edge_length, max_hexes, .. } = options.grid;
+    refined(mesh, solid, edge_length, &options.wanted, max_hexes, monitor)
+}
+
+/// Refines any background whose edges are about `edge_length` long, to no more than `max_hexes`.
+///
+/// # Errors
+/// See [`BackgroundError`].
+pub fn refined(
+    background: HexMesh,
+    solid: &SolidModel,
+    edge_length: f64,
+    wanted: &Wanted<'_>,
+    max_hexes: u64,
+    monitor: &dyn Monitor,
+) -> Result<OctreeMesh, BackgroundError> {
+    let regions = regions(solid, edge_length, wanted, monitor)?;
+    if regions.is_empty() {
+        let level = vec![0; background.hexes.len()];
+        return Ok(OctreeMesh { mesh: background, level });
+    }
+    let halved = HexOptions { regions, max_hexes, ..HexOptions::default() };
+    let thirds = HexOptions { method: Method::Three, ..halved.clone() };
+    let plan = match HexPlan::new(&background, &halved, monitor) {
+        Ok(plan) if plan.tree_hexes() < 8 * background.hexes.len() => plan,
+        // All of the boundary is wanted finer, in halves.
+        plan if wanted.boundary_level > 0 => plan?,
+        plan => fewest(plan, HexPlan::new(&background, &thirds, monitor))?,
+    };
+    let refined = plan.carry_out(monitor)?;
+    Ok(OctreeMesh { mesh: refined.mesh, level: refined.level })
+}
+
+/// The plan of fewer hexes: where the cells to be halved are not in groups of two by two, all of the background would have
+/// to be, while any of them can be cut in 27 (section 4.3.2).
+fn fewest<'a>(
+    halved: Result<HexPlan<'a>, HexRefineError>,
+    thirds: Result<HexPlan<'a>, HexRefineError>,
+) -> Result<HexPlan<'a>, HexRefineError> {
+    match (halved, thirds) {
+        (Err(HexRefineError::Cancelled(cancelled)), _) | (_, Err(HexRefineError::Cancelled(cancelled))) => {
+            Err(cancelled.into())
+        }
+        (Ok(halved), Ok(thirds)) => {
+            Ok(if thirds.forecast().hexes < halved.forecast().hexes { thirds } else { halved })
+        }
+        (Err(_), Ok(thirds)) => Ok(thirds),
+        (halved, Err(_)) => halved,
+    }
+}
+
+/// All that is wanted, as regions.
+fn regions(
+    solid: &SolidModel,
+    edge_length: f64,
+    wanted: &Wanted<'_>,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Region>, BackgroundError> {
+    let &Wanted { boundary_level, curvature, details, levels, regions } = wanted;
+    let edge_of = |level: u8| edge_length / f64::from(1u32 << level.min(31));
+    let mut all = regions.to_vec();
+    all.extend((1..=boundary_level).map(|level| {
         let (positions, triangles) = (solid.points().to_vec(), solid.triangles().to_vec());
         let distance = BAND * edge_of(level - 1);
         Region { shape: Shape::Surface { positions, triangles, distance }, target: Target::Level(level) }
     }));
-    let by_level = demands.points(solid, monitor)?;
-    wanted.extend((boundary_level + 1..).zip(by_level).filter(|(_, points)| !points.is_empty()).map(
-        |(level, points)| {
-            let radius = BAND * edge_of(level - 1);
-            Region { shape: Shape::Points { points, radius }, target: Target::Level(level) }
-        },
-    ));
-    let options = HexOptions { regions: wanted, max_hexes: coarse.max_hexes, ..HexOptions::default() };
-    let refined = refine_hexes(&mesh, &options, monitor)?;
-    Ok(OctreeMesh { mesh: refined.mesh, level: refined.level })
+    if curvature.is_some() || details {
+        let demands = Demands { edge_length: edge_of(boundary_level), curvature, details, finest: levels };
+        let by_level = demands.points(solid, monitor)?;
+        all.extend((boundary_level + 1..).zip(by_level).filter(|(_, points)| !points.is_empty()).map(
+            |(level, points)| {
+                let radius = BAND * edge_of(level - 1);
+                Region { shape: Shape::Points { points, radius }, target: Target::Level(level) }
+            },
+        ));
+    }
+    Ok(all)
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
@@ -81,15 +147,8 @@ mod tests {
     use crate::mesh::check_hexes;
     use crate::solid::testing::{cylinder, solid, voxels};
 
-    fn options(edge_length: f64) -> Octree<'static> {
-        Octree {
-            grid: AlignedGrid::new(edge_length),
-            boundary_level: 0,
-            curvature: None,
-            details: false,
-            levels: 2,
-            regions: &[],
-        }
+    fn made(solid: &SolidModel, edge_length: f64, wanted: Wanted<'_>) -> OctreeMesh {
+        octree(solid, &Octree { grid: AlignedGrid::new(edge_length), wanted }, &Silent).unwrap()
     }
 
     fn center(mesh: &HexMesh, hex: usize) -> Point {
@@ -100,14 +159,14 @@ mod tests {
     fn without_demands_it_is_the_grid() {
         let solid = solid(&cylinder(24));
         let plain = grid(&solid, &AlignedGrid::new(0.4), &Silent).unwrap();
-        let made = octree(&solid, &options(0.4), &Silent).unwrap();
+        let made = made(&solid, 0.4, Wanted::default());
         assert_eq!((made.mesh.hexes.len(), made.level.iter().max()), (plain.hexes.len(), Some(&0)));
     }
 
     #[test]
     fn cells_at_the_boundary_are_finer_than_those_inside() {
         let solid = solid(&voxels([8, 8, 8], |_| true));
-        let made = octree(&solid, &Octree { boundary_level: 1, ..options(1.0) }, &Silent).unwrap();
+        let made = made(&solid, 1.0, Wanted { boundary_level: 1, ..Wanted::default() });
         assert_eq!(check_hexes(&made.mesh), []);
         let depth = |h: usize| solid.signed_distance(center(&made.mesh, h)).abs();
         let coarse: Vec<usize> = (0..made.level.len()).filter(|&h| made.level[h] == 0).collect();
@@ -115,19 +174,30 @@ mod tests {
     }
 
     #[test]
+    fn what_is_refined_in_one_place_stays_coarse_elsewhere() {
+        let solid = solid(&voxels([8, 8, 8], |_| true));
+        let shape = Shape::Sphere { center: Point::ZERO, radius: 0.5 };
+        let regions = [Region { shape, target: Target::Level(1) }];
+        let made = made(&solid, 1.0, Wanted { regions: &regions, ..Wanted::default() });
+        assert_eq!(check_hexes(&made.mesh), []);
+        let plain = grid(&solid, &AlignedGrid::new(1.0), &Silent).unwrap().hexes.len();
+        let fine = made.level.iter().filter(|&&level| level == 1).count();
+        assert!((27..400).contains(&fine) && made.mesh.hexes.len() < 2 * plain, "{fine} {plain}");
+    }
+
+    #[test]
     fn a_thin_wall_and_a_curved_surface_are_refined() {
         // A block with a wall of half an edge.
         let wall = solid(&voxels([8, 8, 4], |[x, _, z]| z < 2 || x == 5));
-        let made = octree(&wall, &Octree { details: true, ..options(2.0) }, &Silent).unwrap();
-        assert_eq!(check_hexes(&made.mesh), []);
+        let walled = made(&wall, 2.0, Wanted { details: true, levels: 2, ..Wanted::default() });
+        assert_eq!(check_hexes(&walled.mesh), []);
         let finest_near = |made: &OctreeMesh, at: Point| {
             let near = (0..made.level.len()).filter(|&h| center(&made.mesh, h).distance(at) < 1.0);
             near.map(|h| made.level[h]).max()
         };
-        assert_eq!(finest_near(&made, Point::new(5.5, 4.0, 3.0)), Some(2));
+        assert_eq!(finest_near(&walled, Point::new(5.5, 4.0, 3.0)), Some(2));
         let round = solid(&cylinder(64));
-        let curved =
-            octree(&round, &Octree { curvature: Some(20.0), levels: 1, ..options(0.6) }, &Silent).unwrap();
+        let curved = made(&round, 0.6, Wanted { curvature: Some(20.0), levels: 1, ..Wanted::default() });
         assert_eq!(check_hexes(&curved.mesh), []);
         assert_eq!(finest_near(&curved, Point::new(1.0, 0.0, 1.0)), Some(1));
     }

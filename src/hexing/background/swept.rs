@@ -1,13 +1,12 @@
 //! The swept background (the paper's §4.2): the quads of the principal face, layer by layer along the direction.
 
+use super::columns::{Columns, share_an_edge};
 use crate::geometry::Point;
-use crate::hexing::face::{FaceError, PrincipalFace, RegionOptions, principal_face};
+use crate::hexing::face::{FaceError, PrincipalFace, RegionMesh, RegionOptions, principal_face};
+use crate::mesh::topology::{Bins, Sets};
 use crate::mesh::{HexMesh, NodeId};
 use crate::solid::{Curve, SolidModel, SurfaceClass};
 use crate::{Cancelled, Monitor, Stage, parallel};
-
-/// Refuse more hexes than this before those far outside are dropped.
-const MOST_HEXES: u64 = 16_000_000;
 
 /// Hexes whose centre is farther outside than this, in edge lengths, are dropped.
 const FAR: f64 = 2.0;
@@ -62,78 +61,127 @@ impl From<FaceError> for SweepError {
     }
 }
 
-/// Sweeps the principal face of a solid from end to end of it along `direction`, of any length but 0. Layers stand in
-/// planar surfaces and curves across the direction; between them edges are about `edge_length` long. Hexes that are
-/// farther outside than two edge lengths are left out; all others are there, inside or outside.
-///
-/// The hexes are conforming and positive: each is a quad of the face times a step. Nodes and hexes are numbered layer by
-/// layer.
-///
-/// # Errors
-/// See [`SweepError`]. The number of hexes is held against the limit before any is made.
-pub fn swept(
-    solid: &SolidModel,
-    direction: Point,
+/// The principal face of a solid and the layers along a direction: a mesh, once it is swept.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    face: PrincipalFace,
+    /// Of all layers along the direction, ascending.
+    heights: Vec<f64>,
     edge_length: f64,
-    monitor: &dyn Monitor,
-) -> Result<HexMesh, SweepError> {
-    let heights = layers(solid, direction, edge_length)?;
-    let face = face_for(solid, direction, edge_length, heights.len() - 1, monitor)?;
-    monitor.checkpoint(SWEEP, 0.0)?;
-    let (points, quads) = (face.mesh.points.len(), face.mesh.quads.len());
-    let hexes = quads * (heights.len() - 1);
-    let [u, v, w] = face.axes;
-    let position = |n: usize| {
-        let (p, height) = (face.mesh.points[n % points], heights[n / points]);
-        u * p.x + v * p.y + w * height
-    };
-    let hex = |k: usize| {
-        let (quad, layer) = (face.mesh.quads[k % quads], k / quads);
-        let at = |corner: usize, layer: usize| NodeId::new(quad[corner] as usize + layer * points);
-        [0, 1, 2, 3, 4, 5, 6, 7].map(|k| at(k % 4, layer + k / 4))
-    };
-    let positions = parallel::try_collect(points * heights.len(), monitor, position)?;
-    let is_near = |k: usize| {
-        let centre = hex(k).iter().map(|n| positions[n.index()]).sum::<Point>() / 8.0;
-        solid.signed_distance(centre) <= FAR * edge_length
-    };
-    let near = parallel::try_filter(hexes, monitor, is_near)?;
-    monitor.checkpoint(SWEEP, 1.0)?;
-    let hexes = near.into_iter().map(|k| hex(k as usize)).collect();
-    Ok(without_unused(HexMesh { positions, hexes, ..HexMesh::default() }))
 }
 
-/// The principal face, if so many layers of it are not too many hexes.
-fn face_for(
-    solid: &SolidModel,
-    direction: Point,
-    edge_length: f64,
-    layers: usize,
-    monitor: &dyn Monitor,
-) -> Result<PrincipalFace, SweepError> {
-    let max_quads = MOST_HEXES / layers as u64;
-    let options = RegionOptions { edge_length, max_quads };
-    let too_many = |quads: f64| SweepError::TooManyHexes { hexes: quads * layers as f64, limit: MOST_HEXES };
-    match principal_face(solid, direction, &options, monitor) {
-        Err(FaceError::TooManyQuads { quads, .. }) => Err(too_many(quads)),
-        // The estimate may have been too low.
-        Ok(face) if face.mesh.quads.len() as u64 > 2 * max_quads => {
-            Err(too_many(face.mesh.quads.len() as f64))
-        }
-        face => Ok(face?),
+impl Sweep {
+    /// Meshes the principal face along `direction`, of any length but 0, and finds the layers: these stand in planar
+    /// surfaces and curves across the direction; between them edges are about `edge_length` long.
+    ///
+    /// # Errors
+    /// See [`SweepError`]. The number of hexes, those far outside of the solid among them, is held against `max_hexes`
+    /// before any is made.
+    pub fn new(
+        solid: &SolidModel,
+        direction: Point,
+        edge_length: f64,
+        max_hexes: u64,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, SweepError> {
+        let heights = layers(solid, direction, edge_length, max_hexes)?;
+        let steps = heights.len() as u64 - 1;
+        let max_quads = max_hexes / steps;
+        let too_many =
+            |quads: f64| SweepError::TooManyHexes { hexes: quads * steps as f64, limit: max_hexes };
+        let face = match principal_face(solid, direction, &RegionOptions { edge_length, max_quads }, monitor)
+        {
+            Err(FaceError::TooManyQuads { quads, .. }) => return Err(too_many(quads)),
+            // The estimate may have been too low.
+            Ok(face) if face.mesh.quads.len() as u64 > 2 * max_quads => {
+                return Err(too_many(face.mesh.quads.len() as f64));
+            }
+            face => face?,
+        };
+        Ok(Self { face: one_fan_a_point(face), heights, edge_length })
+    }
+
+    /// The least scaled Jacobian of the face's quads.
+    pub fn worst_quad(&self) -> f64 {
+        self.face.mesh.worst
+    }
+
+    /// The hexes: each is a quad of the face times a step. Those that are farther outside than two edge lengths are left
+    /// out; all others are there, inside or outside. They are conforming and positive, and a manifold with boundary. Nodes
+    /// and hexes are numbered layer by layer.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn mesh(&self, solid: &SolidModel, monitor: &dyn Monitor) -> Result<HexMesh, Cancelled> {
+        monitor.checkpoint(SWEEP, 0.0)?;
+        let Self { face, heights, edge_length } = self;
+        let (points, quads) = (face.mesh.points.len(), face.mesh.quads.len());
+        let [u, v, w] = face.axes;
+        let position = |n: usize| {
+            let (p, height) = (face.mesh.points[n % points], heights[n / points]);
+            u * p.x + v * p.y + w * height
+        };
+        let hex = |k: usize| {
+            let (quad, layer) = (face.mesh.quads[k % quads], k / quads);
+            let at = |corner: usize, layer: usize| NodeId::new(quad[corner] as usize + layer * points);
+            [0, 1, 2, 3, 4, 5, 6, 7].map(|k| at(k % 4, layer + k / 4))
+        };
+        let positions = parallel::try_collect(points * heights.len(), monitor, position)?;
+        let is_near = |k: usize| {
+            let centre = hex(k).iter().map(|n| positions[n.index()]).sum::<Point>() / 8.0;
+            solid.signed_distance(centre) <= FAR * edge_length
+        };
+        let near = parallel::try_collect(quads * (heights.len() - 1), monitor, is_near)?;
+        monitor.checkpoint(SWEEP, 0.8)?;
+        let kept = Columns::new(points, &face.mesh.quads, near).made_manifold(monitor)?;
+        let hexes = kept.into_iter().map(|k| hex(k as usize)).collect();
+        monitor.checkpoint(SWEEP, 1.0)?;
+        Ok(without_unused(HexMesh { positions, hexes, ..HexMesh::default() }))
     }
 }
 
+/// The face with a point of its own for each fan of quads: where parts of it touch at a point alone, so would the hexes.
+fn one_fan_a_point(mut face: PrincipalFace) -> PrincipalFace {
+    let RegionMesh { points, quads, on_curve, .. } = &mut face.mesh;
+    let corners = quads.as_flattened();
+    let at = Bins::of(points.len(), corners.len(), |k| corners[k] as usize);
+    for p in 0..points.len() {
+        let around = at.at(p);
+        let mut fans = Sets::new(around.len());
+        for (i, &k) in around.iter().enumerate() {
+            for (j, &l) in around.iter().enumerate().take(i) {
+                if share_an_edge(&quads[k as usize / 4], &quads[l as usize / 4]) {
+                    fans.join(i as u32, j as u32, false);
+                }
+            }
+        }
+        let first = points.len() as u32;
+        for (&k, fan) in around.iter().zip(fans.numbers()).filter(|(_, fan)| *fan > 0) {
+            if first + fan > points.len() as u32 {
+                points.push(points[p]);
+                on_curve.push(on_curve[p]);
+            }
+            quads[k as usize / 4][k as usize % 4] = first + fan - 1;
+        }
+    }
+    face
+}
+
 /// The heights of all layers along the direction, ascending.
-fn layers(solid: &SolidModel, direction: Point, edge_length: f64) -> Result<Vec<f64>, SweepError> {
+fn layers(
+    solid: &SolidModel,
+    direction: Point,
+    edge_length: f64,
+    max_hexes: u64,
+) -> Result<Vec<f64>, SweepError> {
     if edge_length.is_nan() || edge_length <= 0.0 || edge_length.is_infinite() {
         return Err(FaceError::EdgeLength(edge_length).into());
     }
     let direction = direction.try_normalize().ok_or(FaceError::Direction)?;
     let levels = levels(solid, direction, edge_length);
     let about = (levels[levels.len() - 1] - levels[0]) / edge_length;
-    if about > MOST_HEXES as f64 {
-        return Err(SweepError::TooManyHexes { hexes: about, limit: MOST_HEXES });
+    if about > max_hexes as f64 {
+        return Err(SweepError::TooManyHexes { hexes: about, limit: max_hexes });
     }
     Ok(heights(&levels, edge_length))
 }

@@ -60,13 +60,10 @@ pub struct Core {
 }
 
 /// Cells that the solid has and the core has not, or the other way round.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LostPart {
-    /// The mean of the cells' centres.
-    pub center: Point,
-    /// All centres are within this distance of it.
-    pub radius: f64,
+    /// The cells' centres.
+    pub centers: Vec<Point>,
 }
 
 /// What was done to make a core, and what came of it.
@@ -167,7 +164,9 @@ pub fn core(
         solid_euler: solid.euler_number(),
         volume_ratio: Volumes::of(&mesh).map_or(0.0, |volumes| volumes.total) / solid.volume(),
     };
-    let lost = removed.crumbs.iter().chain(&removed.bubbles).map(|part| lost_part(&cells, part)).collect();
+    let centers = |part: &Vec<u32>| part.iter().map(|&cell| cells.barycentre(cell as usize)).collect();
+    let parts = removed.crumbs.iter().chain(&removed.bubbles);
+    let lost = parts.map(|part| LostPart { centers: centers(part) }).collect();
     monitor.checkpoint(CORE, 1.0)?;
     Ok(Core { mesh, cells: kept.into_iter().map(HexId).collect(), report, lost })
 }
@@ -206,13 +205,6 @@ fn boundary_euler(cells: &Cells<'_>, inside: &[bool]) -> i64 {
         }
     }
     on_boundary.iter().filter(|&&is| is).count() as i64 - faces
-}
-
-/// Where some cells are.
-fn lost_part(cells: &Cells<'_>, part: &[u32]) -> LostPart {
-    let centers = || part.iter().map(|&cell| cells.barycentre(cell as usize));
-    let center = centers().sum::<Point>() / part.len() as f64;
-    LostPart { center, radius: centers().map(|p| p.distance(center)).fold(0.0, f64::max) }
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]

@@ -83,15 +83,21 @@ impl Triangulation {
         if from == to {
             return Ok(Outcome::Degenerate);
         }
+        let ends_here = |v: FixedVertexHandle| v == from || v == to;
         for met in LineIntersectionIterator::new_from_handles(&self.cdt, from, to) {
             match met {
-                Intersection::VertexIntersection(v) if v.fix() != from && v.fix() != to => {
+                Intersection::VertexIntersection(v) if !ends_here(v.fix()) => {
                     return Ok(Outcome::Touches(v.fix().index() as u32));
                 }
                 Intersection::EdgeIntersection(edge) if edge.is_constraint_edge() => {
                     return Ok(Outcome::Crosses(edge.vertices().map(|v| v.fix().index() as u32)));
                 }
-                Intersection::EdgeOverlap(edge) if edge.is_constraint_edge() => return Ok(Outcome::Exists),
+                // One that goes but a part of the way ends at a point, which comes next.
+                Intersection::EdgeOverlap(edge)
+                    if edge.is_constraint_edge() && edge.vertices().iter().all(|v| ends_here(v.fix())) =>
+                {
+                    return Ok(Outcome::Exists);
+                }
                 _ => {}
             }
         }
@@ -160,5 +166,23 @@ impl Triangulation {
             OutsideOfConvexHull(_) | NoTriangulation => None,
         }?;
         Some((face.fix().index(), face.vertices().map(|v| v.fix().index() as u32)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Silent;
+
+    #[test]
+    fn a_segment_along_others_touches_the_points_between() {
+        let mut triangulation = Triangulation::new();
+        let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [1.0, 1.0]];
+        let ids = points.map(|p| triangulation.insert(p.into(), &Silent).unwrap());
+        let mut constrain = |a: usize, b: usize| triangulation.constrain([ids[a], ids[b]], &Silent).unwrap();
+        assert_eq!(constrain(0, 1), Outcome::Added);
+        assert_eq!(constrain(0, 2), Outcome::Touches(ids[1]));
+        assert_eq!(constrain(1, 0), Outcome::Exists);
+        assert_eq!(constrain(3, 3), Outcome::Degenerate);
     }
 }

@@ -25,7 +25,8 @@ use super::error::SolidError;
 use super::options::{SolidOptions, SolidReport};
 use super::shell::{EdgeTable, Shell, Triangles};
 use crate::geometry::{Aabb, triangulate};
-use crate::mesh::{FaceId, PolygonMesh, check_polygons};
+use crate::mesh::check::check_faces;
+use crate::mesh::{FaceId, PolygonMesh};
 use crate::{Cancelled, Monitor, parallel};
 
 /// Points closer than this share of the diagonal of the surface's box are one.
@@ -94,7 +95,9 @@ pub(super) fn import(
     report.turned_triangles = orient::orient(&mut soup, &table, tolerance)?;
     monitor.proceed()?;
     let mut shell = shell_of(&mut soup, monitor)?;
+    monitor.proceed()?;
     let copies = fans::split(&mut shell);
+    monitor.proceed()?;
     let nesting = nesting::nesting(&shell, monitor)?;
     report.voids = nesting.voids;
     if nesting.voids > 0 {
@@ -102,6 +105,7 @@ pub(super) fn import(
         soup.mesh = shell.mesh;
         shell = shell_of(&mut soup, monitor)?;
     }
+    monitor.proceed()?;
     let mut face_of = std::mem::take(&mut soup.face_of);
     report.flipped_triangles = flat::flip(&mut shell, &mut face_of, tolerance);
     let nodes = tagged::Nodes { vertex_of: &soup.vertex_of, copies: &copies };
@@ -120,7 +124,7 @@ fn triangles(surface: &PolygonMesh, monitor: &dyn Monitor) -> Result<Soup, Solid
     if surface.face_count() == 0 {
         return Err(SolidError::Empty);
     }
-    let broken = check_polygons(surface).into_iter().find(|defect| {
+    let broken = check_faces(surface, monitor)?.into_iter().find(|defect| {
         matches!(defect, BrokenOffsets { .. } | NodeOutOfRange { .. } | NotFinite { .. } | TooFewNodes { .. })
     });
     if let Some(defect) = broken {

@@ -34,7 +34,7 @@ pub(super) fn nesting(shell: &Shell, monitor: &dyn Monitor) -> Result<Nesting, C
     } else {
         Vec::new()
     };
-    let sides = (all.len() > 1).then(|| Sides::new(shell, &normals));
+    let sides = (all.len() > 1).then(|| Sides::new(shell, &normals, monitor)).transpose()?;
     for (j, sides) in (0..all.len()).flat_map(|j| sides.as_ref().map(|s| (j, s))) {
         monitor.proceed()?;
         let within = |i: &usize| *i != j && all[*i].bounds.is_within(&all[j].bounds);
@@ -42,7 +42,7 @@ pub(super) fn nesting(shell: &Shell, monitor: &dyn Monitor) -> Result<Nesting, C
         if candidates.is_empty() {
             continue;
         }
-        let search = TriangleSearch::new(shell, all[j].triangles.iter().map(|&t| t as usize));
+        let search = TriangleSearch::new(shell, all[j].triangles.iter().map(|&t| t as usize), monitor)?;
         for i in candidates {
             let p = shell.mesh.at(all[i].triangles[0] as usize)[0];
             let nearest = search.nearest(p);

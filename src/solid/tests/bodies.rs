@@ -10,10 +10,14 @@ fn bodies_can_be_had_one_by_one() {
     assert_eq!((report.bodies, report.voids, solid.body_count()), (2, 0, 2));
     assert_eq!(solid.surfaces().iter().filter(|s| s.body == 1).count(), 6);
     for (body, volume) in [(0, 1.0), (1, 2.0)] {
-        let alone = solid.body(body);
+        let alone = solid.body(body, &Silent).unwrap();
         check_graph(&alone);
         assert_eq!((alone.volume(), alone.corners().len(), alone.body_count()), (volume, 8, 1));
         assert_eq!(alone.contains(Point::new(0.5, 0.5, 0.5)), body == 0);
+        let of_body = |s: SurfaceId| solid.surfaces()[s.index()].body == body;
+        let curves: Vec<_> = solid.curves().iter().filter(|curve| of_body(curve.sides[0])).collect();
+        let place = |solid: &SolidModel, curve: &Curve| solid.points()[curve.vertices[0] as usize];
+        assert!(alone.curves().iter().zip(curves).all(|(a, b)| place(&alone, a) == place(&solid, b)));
     }
 }
 
@@ -43,7 +47,7 @@ fn a_body_within_a_void_is_a_body() {
         &SolidOptions::default(),
     );
     assert_eq!((report.bodies, report.voids), (2, 2));
-    let volumes = [0, 1].map(|b| solid.body(b).volume());
+    let volumes = [0, 1].map(|b| solid.body(b, &Silent).unwrap().volume());
     assert!((volumes[0] - 218.0).abs() < 1e-9 && (volumes[1] - 26.0).abs() < 1e-9, "{volumes:?}");
-    assert_eq!(solid.body(1).euler_number(), 4, "with its void");
+    assert_eq!(solid.body(1, &Silent).unwrap().euler_number(), 4, "with its void");
 }

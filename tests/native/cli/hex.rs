@@ -1,5 +1,7 @@
 //! `hexmill hex`.
 
+use serde_json::json;
+
 use super::{folder_holding, hexmill, json, succeed};
 
 /// A cube of edge 2.
@@ -13,8 +15,12 @@ fn a_cube_is_filled_with_cubes_and_keeps_its_surfaces_as_groups() {
     assert!(stdout.starts_with("cube.msh: 125 nodes, 64 hexes"), "{stdout}");
     assert!(stdout.contains("captured 8 of 8 corners, 12 of 12 curves, 6 of 6 surfaces"), "{stdout}");
     let report = json(&folder, "r.json");
-    let result = &report["hexing"]["attempts"][0];
-    assert_eq!(result["core"]["euler"], 2);
+    let result = &report["hexing"]["result"];
+    assert_eq!((&result["euler"], &result["solidEuler"]), (&json!(2), &json!(2)));
+    let body = &report["hexing"]["bodies"][0];
+    assert_eq!((&body["choice"]["kind"], &body["choice"]["gridCapture"]), (&json!("grid"), &json!(1.0)));
+    assert_eq!(body["directions"][0]["surfaceCapture"], 1.0);
+    assert_eq!((&body["kept"], &body["attempts"][0]["hexes"]), (&json!(0), &json!(64)));
     assert!(result["worst"].as_f64().unwrap() > 1.0 - 1e-9, "{result}");
     assert!(result["distance"]["surfaceToMesh"]["max"].as_f64().unwrap() < 1e-12, "{result}");
     let checked = succeed(&folder, &["check", "cube.msh", "--report", "c.json"]);
@@ -22,18 +28,152 @@ fn a_cube_is_filled_with_cubes_and_keeps_its_surfaces_as_groups() {
     assert_eq!(json(&folder, "c.json")["mesh"]["groupedFaces"], 96);
 }
 
+/// What the solid in a file is refused with; nothing is written.
+fn refused(surface: &str, edge_length: &str) -> String {
+    let folder = folder_holding("part.obj", surface);
+    let run = hexmill(&folder, &["hex", "part.obj", "-o", "out.vtu", "-e", edge_length]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""), "{}", run.stderr);
+    assert!(!folder.path().join("out.vtu").exists());
+    run.stderr
+}
+
+/// The cube, scaled and moved along x; the second of two in a file.
+fn with_another(scale: f64, along_x: f64) -> String {
+    let mut text = CUBE.to_owned();
+    for line in CUBE.lines() {
+        let mut words = line.split(' ');
+        let kind = words.next().unwrap();
+        let numbers = words.map(|word| word.parse::<f64>().unwrap());
+        let words: Vec<String> = match kind {
+            "v" => numbers
+                .enumerate()
+                .map(|(k, x)| (x * scale + if k == 0 { along_x } else { 0.0 }).to_string())
+                .collect(),
+            _ => numbers.map(|number| (number + 8.0).to_string()).collect(),
+        };
+        text += &format!("{kind} {}\n", words.join(" "));
+    }
+    text
+}
+
 #[test]
-fn what_bounds_no_solid_is_refused() {
-    let open = CUBE.replace("f 5 6 7 8\n", "");
-    let folder = folder_holding("open.obj", &open);
-    let refused = |folder, args: &[&str]| {
-        let run = hexmill(folder, args);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""), "{args:?}");
-        run.stderr
-    };
-    let error = refused(&folder, &["hex", "open.obj", "-o", "out.vtu", "-e", "0.5"]);
-    assert!(error.contains("open.obj: the surface is open: 4 edges belong to one face only"), "{error}");
+fn what_bounds_no_solid_is_refused_with_its_place() {
+    let open = refused(&CUBE.replace("f 5 6 7 8\n", ""), "0.5");
+    assert!(
+        open.starts_with("error[surface-open]: part.obj: the surface is open: 4 edges belong to one"),
+        "{open}"
+    );
+    let triangle = refused("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "0.5");
+    assert!(triangle.contains("[surface-open]") && triangle.contains("3 edges"), "{triangle}");
+    // A fin on one edge of the cube.
+    let fin = refused(&format!("{CUBE}v 0 0 3\nf 5 6 9\n"), "0.5");
+    assert!(fin.contains("[surface-non-manifold]") && fin.contains("at [1, 0, 2]"), "{fin}");
+    let crossing = refused(&with_another(1.0, 1.0), "0.5");
+    assert!(crossing.contains("[surface-self-intersecting]"), "{crossing}");
+    let flat = refused(&CUBE.replace(" 2\nv", " 0\nv").replace("0 2 2\nf", "0 2 0\nf"), "0.5");
+    assert!(flat.contains("[surface-without-volume]"), "{flat}");
+    let nan = refused(&CUBE.replace("v 2 2 2", "v 2 nan 2"), "0.5");
+    assert!(nan.contains("line 7"), "{nan}");
+    let text = refused("This is a letter, not a surface.\n", "0.5");
+    assert!(text.starts_with("error["), "{text}");
+    let empty = refused("# nothing\n", "0.5");
+    assert!(empty.contains("[obj-no-vertices]"), "{empty}");
+}
+
+#[test]
+fn edge_lengths_that_fit_no_solid_are_refused_at_once() {
+    for edge_length in ["0.001", "0.00001", "1e-300"] {
+        let error = refused(CUBE, edge_length);
+        assert!(error.starts_with("error[too-many-hexes]: part.obj: about"), "{error}");
+    }
+    let error = refused(CUBE, "50");
+    assert!(
+        error.starts_with("error[edge-length-too-large]: part.obj: an edge length of 50 is too"),
+        "{error}"
+    );
+    let folder = folder_holding("part.obj", CUBE);
+    for edge_length in ["0", "-1", "nan", "inf"] {
+        let run = hexmill(&folder, &["hex", "part.obj", "-o", "out.vtu", "-e", edge_length]);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn what_can_be_mended_is_mended_and_told() {
+    let inside_out: String = CUBE
+        .lines()
+        .map(|line| match line.strip_prefix("f ") {
+            Some(nodes) => {
+                let turned: Vec<&str> = nodes.split(' ').rev().collect();
+                format!("f {}\n", turned.join(" "))
+            }
+            None => format!("{line}\n"),
+        })
+        .collect();
+    let folder = folder_holding("cube.obj", &inside_out);
+    let stdout = succeed(&folder, &["hex", "cube.obj", "-o", "cube.vtu", "-e", "1"]);
+    assert!(stdout.contains("27 nodes, 8 hexes"), "{stdout}");
+    assert!(stdout.contains("mended: 12 triangles turned outward"), "{stdout}");
+}
+
+#[test]
+fn bodies_are_groups_and_shells_within_are_voids() {
+    let arguments = ["hex", "two.obj", "-o", "two.msh", "-e", "0.5", "--report", "r.json"];
+    let folder = folder_holding("two.obj", &with_another(0.5, 3.0));
+    let stdout = succeed(&folder, &arguments);
+    assert!(stdout.contains(&format!("{} nodes, {} hexes", 125 + 27, 64 + 8)), "{stdout}");
+    assert!(stdout.contains("captured 16 of 16 corners, 24 of 24 curves, 12 of 12 surfaces"), "{stdout}");
+    let report = json(&folder, "r.json");
+    assert_eq!(report["hexing"]["bodies"].as_array().unwrap().len(), 2);
+    assert_eq!(report["hexing"]["result"]["euler"], 4);
+    let mesh = std::fs::read_to_string(folder.path().join("two.msh")).unwrap();
+    for name in ["body-1", "body-2", "surface-1", "surface-12"] {
+        assert!(mesh.contains(&format!("\"{name}\"")), "{name}");
+    }
+    // Half as large and in the middle of the other.
+    let within = with_another(0.5, 0.0).replace("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n",
+        "v 0.5 0.5 0.5\nv 1.5 0.5 0.5\nv 1.5 1.5 0.5\nv 0.5 1.5 0.5\nv 0.5 0.5 1.5\nv 1.5 0.5 1.5\nv 1.5 1.5 1.5\nv 0.5 1.5 1.5\n");
+    let folder = folder_holding("two.obj", &within);
+    let stdout = succeed(&folder, &arguments);
+    assert!(stdout.contains(&format!("{} hexes", 64 - 8)), "{stdout}");
+    assert_eq!(json(&folder, "r.json")["hexing"]["solid"]["voids"], 1);
+}
+
+#[test]
+fn a_body_that_is_too_thin_is_told_where_there_are_others() {
+    let folder = folder_holding("two.obj", &with_another(0.01, 3.0));
+    let stdout = succeed(&folder, &["hex", "two.obj", "-o", "two.vtu", "-e", "0.5"]);
+    assert!(stdout.contains("64 hexes"), "{stdout}");
+    assert!(
+        stdout.contains("1 bodies were lost, since no hex lies within them, the largest at 3.01"),
+        "{stdout}"
+    );
+}
+
+#[test]
+fn backgrounds_and_regions_are_as_they_were_asked_for() {
     let folder = folder_holding("cube.obj", CUBE);
-    let error = refused(&folder, &["hex", "cube.obj", "-o", "out.vtu", "-e", "0.00001"]);
-    assert!(error.starts_with("error[too-many-hexes]: cube.obj: about"), "{error}");
+    let hexes = |more: &[&str]| {
+        let edge_length: &[&str] = if more.contains(&"-e") { &[] } else { &["-e", "0.5"] };
+        let arguments = ["hex", "cube.obj", "-o", "cube.vtu", "--report", "r.json"];
+        succeed(&folder, &[&arguments, edge_length, more].concat());
+        let report = json(&folder, "r.json")["hexing"].take();
+        assert!(report["result"]["worst"].as_f64().unwrap() > 0.1, "{report}");
+        let attempt = report["bodies"][0]["attempts"][0].clone();
+        (
+            attempt["background"].as_str().unwrap().to_owned(),
+            attempt["hexes"].as_u64().unwrap(),
+            attempt["levels"].clone(),
+        )
+    };
+    assert_eq!(hexes(&["--background", "swept"]), ("swept".into(), 64, json!([64])));
+    let (kind, count, levels) = hexes(&["--background", "octree"]);
+    assert_eq!(kind, "octree");
+    assert!(count >= 64 && levels.as_array().unwrap().len() >= 2, "{count} {levels}");
+    for background in ["grid", "swept"] {
+        let region = ["--background", background, "-e", "0.25", "--region", "sphere:0,0,0,0.2:level=1"];
+        let (kind, count, levels) = hexes(&region);
+        assert_eq!((kind.as_str(), levels.as_array().unwrap().len()), (background, 2));
+        assert!((513..2000).contains(&count), "{count}");
+    }
 }

@@ -1,6 +1,8 @@
 //! All-hex meshes of solids, from the surface to the mesh.
 
+mod cancel;
 mod csg;
+mod motions;
 mod parts;
 
 use crate::hexes::meshes;

@@ -17,7 +17,7 @@ fn hexed(part: &PolygonMesh, share: f64) -> HexedSolid {
 }
 
 /// Is the mesh conforming, a manifold, and positive everywhere?
-fn assert_sound(hexed: &HexedSolid, name: &str) {
+pub(super) fn assert_sound(hexed: &HexedSolid, name: &str) {
     let mesh = &hexed.mesh;
     assert!(!mesh.hexes.is_empty(), "{name}");
     assert_eq!(check_hexes(mesh), [], "{name}");

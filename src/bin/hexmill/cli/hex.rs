@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hexmill::hexing::{HexedSolid, HexingError, HexingOptions, hex_solid};
+use hexmill::hexing::{HexedSolid, HexingError, HexingOptions, HexingReport, ResultReport, hex_solid};
 use hexmill::io::Document;
 
 use super::args::HexArgs;
@@ -16,8 +16,10 @@ use super::report::Report;
 /// Reads a closed surface, fills it with hexes, writes and reports.
 pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
     let format = format_for_hexes(&args.making.output)?;
-    args.making.prepare(&[("the input", &args.input)])?;
-    let options = options(args);
+    let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
+    let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
+    args.making.prepare(&inputs)?;
+    let options = options(args)?;
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
@@ -35,12 +37,18 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
     args.making.close(report, &progress, quiet, in_words)
 }
 
-fn options(args: &HexArgs) -> HexingOptions {
-    HexingOptions {
+fn options(args: &HexArgs) -> Result<HexingOptions, Failure> {
+    let default = HexingOptions::default();
+    Ok(HexingOptions {
         edge_length: args.edge_length,
+        regions: args.regions.iter().map(|region| region.load()).collect::<Result<_, _>>()?,
+        background: args.background.into(),
+        curvature: args.curvature,
         feature_angle: args.feature_angle,
-        max_hexes: args.max_hexes.unwrap_or(HexingOptions::default().max_hexes),
-    }
+        max_distance: args.max_distance,
+        max_levels: args.max_levels.unwrap_or(default.max_levels),
+        max_hexes: args.max_hexes.unwrap_or(default.max_hexes),
+    })
 }
 
 /// The solid was not meshed, or the options make no sense.
@@ -55,27 +63,40 @@ fn refused(path: &Path, error: &HexingError) -> Failure {
 fn in_words(path: &Path, report: &Report) -> String {
     let mesh = &report.mesh;
     let mut lines = vec![format!("{}: {}", path.display(), mesh.counts.in_words())];
-    if let Some(work) = &report.hexing {
-        let made = work.result();
-        let kinds = [
-            ("corners", made.features.corners),
-            ("curves", made.features.curves),
-            ("surfaces", made.features.surfaces),
-        ];
-        let features = kinds.map(|(kind, n)| format!("{} of {} {kind}", n.captured, n.found)).join(", ");
-        lines.push(format!("  captured {features}"));
-        if !made.core.has_right_euler() {
-            let (ours, wanted) = (made.core.euler, made.core.solid_euler);
-            lines.push(format!(
-                "  the boundary's Euler number is {ours}, the solid's {wanted}: parts or holes smaller than the edges \
-                 were lost; lower the edge length"
-            ));
-        }
-        let distance = &made.distance;
-        lines.push(format!("  distance to the solid: {}", distance.mesh_to_surface.in_words()));
-        lines.push(format!("  distance from the solid: {}", distance.surface_to_mesh.in_words()));
-    }
+    lines.extend(report.hexing.iter().flat_map(work_in_words).map(|line| format!("  {line}")));
     lines.extend(mesh.quality.as_ref().map(quality_table));
     lines.push(format!("  hash {}, {:.2} s", mesh.hash, report.seconds));
     lines.join("\n") + "\n"
+}
+
+/// What was done, and what the mesh does not show.
+fn work_in_words(work: &HexingReport) -> Vec<String> {
+    let ResultReport { features, euler, solid_euler, distance, lost_bodies, .. } = work.result();
+    let mended = work.solid.mended();
+    let mut lines = Vec::new();
+    if !mended.is_empty() {
+        lines.push(format!("mended: {}", mended.join(", ")));
+    }
+    let kinds = [("corners", features.corners), ("curves", features.curves), ("surfaces", features.surfaces)];
+    let captured = kinds.map(|(kind, n)| format!("{} of {} {kind}", n.captured, n.found)).join(", ");
+    lines.push(format!("captured {captured}"));
+    let kinds = [
+        ("curves were lost", &features.suppressed),
+        ("surfaces were lost", &features.lost_surfaces),
+        ("bodies were lost, since no hex lies within them", lost_bodies),
+    ];
+    for (what, lost) in kinds.into_iter().filter(|(_, lost)| !lost.is_empty()) {
+        let largest = lost.iter().max_by(|a, b| a.size.total_cmp(&b.size));
+        let [x, y, z] = largest.map_or([0.0; 3], |lost| lost.place);
+        lines.push(format!("{} {what}, the largest at {x}, {y}, {z}", lost.len()));
+    }
+    if euler != solid_euler {
+        lines.push(format!(
+            "the boundary's Euler number is {euler}, the solid's {solid_euler}: parts or holes smaller than the edges \
+             were lost; lower the edge length"
+        ));
+    }
+    lines.push(format!("distance to the solid: {}", distance.mesh_to_surface.in_words()));
+    lines.push(format!("distance from the solid: {}", distance.surface_to_mesh.in_words()));
+    lines
 }

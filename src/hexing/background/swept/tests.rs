@@ -30,7 +30,8 @@ fn lathe(profile: &[[f64; 2]], n: u32) -> PolygonMesh {
 /// Sweeps along z and checks what is promised.
 fn checked(surface: &PolygonMesh, edge_length: f64) -> (SolidModel, HexMesh) {
     let solid = solid(surface);
-    let mesh = swept(&solid, Point::Z * 3.0, edge_length, &Silent).unwrap();
+    let sweep = Sweep::new(&solid, Point::Z * 3.0, edge_length, 1 << 24, &Silent).unwrap();
+    let mesh = sweep.mesh(&solid, &Silent).unwrap();
     assert_eq!(check_hexes(&mesh), []);
     let worst = hex_quality(&mesh).report().unwrap().scaled_jacobian.summary.min;
     assert!(worst > 0.1, "{worst}");
@@ -104,7 +105,9 @@ fn levels_that_are_close_are_one() {
 #[test]
 fn what_cannot_be_swept_is_refused() {
     let solid = solid(&cuboid([1, 1, 1]));
-    let code = |direction, edge_length| swept(&solid, direction, edge_length, &Silent).unwrap_err().code();
+    let code = |direction, edge_length| {
+        Sweep::new(&solid, direction, edge_length, 1 << 24, &Silent).unwrap_err().code()
+    };
     assert_eq!(code(Point::ZERO, 0.1), "no-direction");
     assert_eq!(code(Point::Z, -1.0), "edge-length-out-of-range");
     for edge_length in [0.002, 1e-4, 1e-10] {

@@ -44,7 +44,10 @@ Examples:
     hexmill hex part.obj -o part.vtu --edge-length 2
 
   Surfaces meet where faces turn by more than 20 degrees; a record of what came of each feature:
-    hexmill hex part.obj -o part.msh -e 2 --feature-angle 20 --report part.json";
+    hexmill hex part.obj -o part.msh -e 2 --feature-angle 20 --report part.json
+
+  Smaller hexes along a bore (regions as for hexmill refine), and wherever mesh and solid are more than 0.05 apart:
+    hexmill hex part.obj -o part.vtu -e 2 --region cylinder:5,5,-1,5,5,6,2:h=0.5 --max-distance 0.05";
 
 pub(super) const CHECK: &str = "\
 Exit code 1 if the mesh is not conforming (repeated or hanging nodes, faces twice, ...). Open borders,

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use hexmill::hexing::HexingOptions;
 use hexmill::hexing::face::RegionOptions;
+use hexmill::hexing::{Background, HexingOptions};
 use hexmill::refine::QuadOptions;
 use hexmill::refine::hex::{HexOptions, Method};
 
@@ -133,9 +133,29 @@ pub(crate) struct HexArgs {
     #[arg(long, short = 'e', value_name = "L", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) edge_length: f64,
 
+    /// Where edges are to be shorter, as KIND:NUMBERS:h=SIZE or KIND:NUMBERS:level=N; may be given many times
+    #[arg(long = "region", short = 'r', value_name = "REGION", value_parser = super::region::parse)]
+    pub(crate) regions: Vec<RegionArg>,
+
+    /// What the mesh is cut out of
+    #[arg(long, value_enum, value_name = "KIND", default_value_t = BackgroundArg::Auto)]
+    pub(crate) background: BackgroundArg,
+
+    /// Turn of the surface's normal that one edge may span, in degrees
+    #[arg(long, value_name = "DEG", value_parser = angle)]
+    pub(crate) curvature: Option<f64>,
+
     /// Faces that meet at more than this are parts of different surfaces, in degrees
     #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true, default_value_t = 35.0)]
     pub(crate) feature_angle: f64,
+
+    /// How far mesh and solid may be from each other before hexes there are made smaller
+    #[arg(long, value_name = "D", value_parser = positive)]
+    pub(crate) max_distance: Option<f64>,
+
+    /// Make hexes at most this many levels finer to show what was missed, and for --curvature [default: 2]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=i64::from(HexingOptions::MOST_LEVELS)))]
+    pub(crate) max_levels: Option<u8>,
 
     /// Refuse to make a background of more hexes than this [default: 4000000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexingOptions::MOST_HEXES))]
@@ -143,6 +163,30 @@ pub(crate) struct HexArgs {
 
     #[command(flatten)]
     pub(crate) making: Making,
+}
+
+/// What a mesh of a solid is cut out of.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum BackgroundArg {
+    /// What is likely to capture the solid best
+    Auto,
+    /// A quad mesh of the principal face, swept along the principal direction
+    Swept,
+    /// A grid along the solid's main axes, its planes moved to planar surfaces
+    Grid,
+    /// Such a grid of edges twice as long, refined at the boundary, and more where smaller hexes are wanted
+    Octree,
+}
+
+impl From<BackgroundArg> for Background {
+    fn from(background: BackgroundArg) -> Self {
+        match background {
+            BackgroundArg::Auto => Self::Auto,
+            BackgroundArg::Swept => Self::Swept,
+            BackgroundArg::Grid => Self::Grid,
+            BackgroundArg::Octree => Self::Octree,
+        }
+    }
 }
 
 /// How refined hexes and coarse ones are joined.

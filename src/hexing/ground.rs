@@ -1,0 +1,149 @@
+//! Which background a body gets (section 4), and how it is made for each attempt.
+
+use glam::DMat3;
+
+use super::background::{
+    AlignedGrid, Background, BackgroundError, Choice, Octree, OctreeMesh, Sweep, SweptScore, Wanted, choose,
+    grid, may_sweep, octree, refined,
+};
+use super::direction::{DirectionScore, best_frame, principal_directions};
+use super::options::HexingOptions;
+use crate::Monitor;
+use crate::sizing::Region;
+use crate::solid::SolidModel;
+
+/// A body and the kind of background that suits it.
+pub(super) struct Site<'a> {
+    pub(super) solid: &'a SolidModel,
+    pub(super) options: &'a HexingOptions,
+    pub(super) choice: Choice,
+    /// The candidates for the principal direction, the best first; none where nobody asked.
+    pub(super) directions: Vec<DirectionScore>,
+    axes: DMat3,
+    sweep: Option<Sweep>,
+}
+
+/// How an attempt's background differs from others of its site.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Plan {
+    /// What the core is cut out of; never `Auto`.
+    pub(super) kind: Background,
+    /// How far the lines of a grid are moved, as a share of an edge along each axis.
+    pub(super) shift: [f64; 3],
+    /// Where cells are to be smaller, beyond what the options want.
+    pub(super) regions: Vec<Region>,
+    /// How many levels finer cells may become where walls are thin, gaps narrow and curves short.
+    pub(super) details: u8,
+}
+
+impl Plan {
+    /// A background of this kind, as it is.
+    pub(super) fn of(kind: Background) -> Self {
+        Self { kind, shift: [0.0; 3], regions: Vec::new(), details: 0 }
+    }
+}
+
+impl<'a> Site<'a> {
+    /// Finds out what suits the body, or whether what the options want can be made.
+    pub(super) fn new(
+        solid: &'a SolidModel,
+        options: &'a HexingOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, BackgroundError> {
+        let axes = best_frame(solid).axes();
+        let (mut directions, mut sweep) = (Vec::new(), None);
+        if matches!(options.background, Background::Auto | Background::Swept) {
+            directions = principal_directions(solid, monitor)?;
+            sweep = swept(solid, axes, &directions, options, monitor)?;
+        }
+        let score = sweep.as_ref().map(|sweep| SweptScore {
+            surface_capture: directions[0].surface_capture,
+            worst_quad: sweep.worst_quad(),
+        });
+        let choice = choose(solid, axes, options.background, score, options.curvature.is_some());
+        Ok(Self { solid, options, choice, directions, axes, sweep })
+    }
+
+    /// Was it a choice not to take a grid?
+    pub(super) fn may_be_grid(&self) -> bool {
+        self.options.background == Background::Auto && self.choice.kind == Background::Swept
+    }
+
+    /// How long the edges of cells of level 0 are.
+    pub(super) fn edge_length(&self) -> f64 {
+        edge_length_of(self.choice.kind, self.options)
+    }
+
+    /// The level of cells at the boundary that nothing wants smaller.
+    pub(super) fn boundary_level(&self) -> u8 {
+        u8::from(self.choice.kind == Background::Octree)
+    }
+
+    /// The finest level that retries may ask for.
+    pub(super) fn finest(&self) -> u8 {
+        self.boundary_level() + self.options.max_levels
+    }
+
+    /// The background of an attempt.
+    pub(super) fn background(
+        &self,
+        plan: &Plan,
+        max_hexes: u64,
+        monitor: &dyn Monitor,
+    ) -> Result<OctreeMesh, BackgroundError> {
+        let &Self { solid, options, axes, .. } = self;
+        let edge_length = self.edge_length();
+        let aligned = AlignedGrid { edge_length, axes, shift: plan.shift, max_hexes };
+        let regions = [options.regions.as_slice(), &plan.regions].concat();
+        let details = if plan.kind == Background::Octree { options.max_levels } else { plan.details };
+        let wanted = Wanted {
+            boundary_level: self.boundary_level(),
+            curvature: options.curvature,
+            details: details > 0,
+            levels: if options.curvature.is_some() { options.max_levels } else { details },
+            regions: &regions,
+        };
+        match (plan.kind, &self.sweep) {
+            (Background::Octree, _) => octree(solid, &Octree { grid: aligned, wanted }, monitor),
+            (Background::Swept, Some(sweep)) => {
+                let mesh = sweep.mesh(solid, monitor)?;
+                refined(mesh, solid, edge_length, &wanted, max_hexes, monitor)
+            }
+            _ => refined(grid(solid, &aligned, monitor)?, solid, edge_length, &wanted, max_hexes, monitor),
+        }
+    }
+}
+
+fn edge_length_of(kind: Background, options: &HexingOptions) -> f64 {
+    if kind == Background::Octree { 2.0 * options.edge_length } else { options.edge_length }
+}
+
+/// The longest edges that cells of level 0 may have.
+pub(super) fn coarsest(options: &HexingOptions) -> f64 {
+    let may_be_octree = options.background == Background::Auto && options.curvature.is_some();
+    edge_length_of(if may_be_octree { Background::Octree } else { options.background }, options)
+}
+
+/// The sweep along the principal direction: if it is wanted, or may capture more than a grid.
+fn swept(
+    solid: &SolidModel,
+    axes: DMat3,
+    directions: &[DirectionScore],
+    options: &HexingOptions,
+    monitor: &dyn Monitor,
+) -> Result<Option<Sweep>, BackgroundError> {
+    let is_wanted = options.background == Background::Swept;
+    let Some(best) = directions.first() else {
+        return if is_wanted { Err(BackgroundError::NoDirection) } else { Ok(None) };
+    };
+    if !is_wanted && !may_sweep(solid, axes, best.surface_capture) {
+        return Ok(None);
+    }
+    match Sweep::new(solid, best.direction, options.edge_length, options.max_hexes, monitor) {
+        Ok(sweep) => Ok(Some(sweep)),
+        Err(error) if is_wanted => Err(error.into()),
+        Err(super::background::SweepError::Cancelled(cancelled)) => Err(cancelled.into()),
+        // There are other backgrounds.
+        Err(_) => Ok(None),
+    }
+}

@@ -1,0 +1,94 @@
+//! What an attempt missed, with the place: where another one is to have smaller cells.
+
+use super::background::{Failure, OctreeMesh};
+use super::core::Core;
+use super::correspondence::{CurveFate, Reason, Reduction};
+use super::ground::Site;
+use crate::geometry::{Aabb, BoxIndex, Point};
+use crate::mesh::topology::hex_boundary;
+use crate::mesh::{HexMesh, NodeId, Triangles, samples_beyond};
+use crate::solid::SolidModel;
+use crate::{Cancelled, Monitor};
+
+/// A closed curve needs so many edges to be routed.
+const AROUND: f64 = 2.5;
+
+/// The cells of a background that are finer than the coarsest.
+pub(super) struct FineCells {
+    index: BoxIndex,
+    levels: Vec<u8>,
+}
+
+impl FineCells {
+    pub(super) fn of(background: &OctreeMesh) -> Self {
+        let OctreeMesh { mesh, level } = background;
+        let fine: Vec<usize> = (0..level.len()).filter(|&hex| level[hex] > 0).collect();
+        let bounds = |&hex: &usize| Aabb::around(&mesh.hexes[hex].map(|n| mesh.positions[n.index()]));
+        Self {
+            index: BoxIndex::new(fine.iter().map(bounds)),
+            levels: fine.iter().map(|&hex| level[hex]).collect(),
+        }
+    }
+
+    /// The level of the coarsest of the cells around some points.
+    fn around(&self, points: &[Point]) -> u8 {
+        let at = |&p: &Point| {
+            let here = Aabb { min: p, max: p };
+            let found = self.index.touching(&here);
+            found.map(|cell| self.levels[cell]).max().unwrap_or(0)
+        };
+        points.iter().map(at).min().unwrap_or(0)
+    }
+}
+
+/// All that an attempt missed and smaller cells may show.
+pub(super) fn misses(
+    site: &Site<'_>,
+    core: &Core,
+    reduction: &Reduction,
+    far: Vec<Point>,
+    cells: &FineCells,
+) -> Vec<Failure> {
+    let (solid, edge_length) = (site.solid, site.edge_length());
+    let finest = edge_length / f64::from(1u32 << site.finest());
+    let mut failures = Vec::new();
+    for lost in reduction.lost_curves.iter().filter(|lost| lost.fate == CurveFate::Suppressed) {
+        // What even the finest cells are too large for is given up at once.
+        if lost.reason != Reason::Short || lost.length >= AROUND * finest {
+            failures.push(Failure::of_curve(solid, lost.curve, 0, finest));
+        }
+    }
+    for lost in &reduction.lost_surfaces {
+        failures.push(Failure::of_surface(solid, lost.surface, 0, finest));
+    }
+    if !core.report.has_right_euler() {
+        failures.extend(core.lost.iter().map(|part| Failure { points: part.centers.clone(), level: 0 }));
+    }
+    failures.extend(far.into_iter().map(|p| Failure { points: vec![p], level: 0 }));
+    failures.iter_mut().for_each(|failure| failure.level = cells.around(&failure.points));
+    failures
+}
+
+/// The places where mesh and solid are farther from each other than allowed.
+pub(super) fn too_far(
+    mesh: &HexMesh,
+    solid: &SolidModel,
+    max_distance: f64,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Point>, Cancelled> {
+    let triangles = boundary_triangles(mesh);
+    let boundary = Triangles { positions: &mesh.positions, triangles: &triangles };
+    let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
+    let mut far = samples_beyond(max_distance, boundary, surface, monitor)?;
+    far.extend(samples_beyond(max_distance, surface, boundary, monitor)?);
+    Ok(far)
+}
+
+/// The boundary of a mesh: two triangles for each quad.
+pub(super) fn boundary_triangles(mesh: &HexMesh) -> Vec<[u32; 3]> {
+    let halves = |quad: [NodeId; 4]| {
+        let [a, b, c, d] = quad.map(|n| n.0);
+        [[a, b, c], [a, c, d]]
+    };
+    hex_boundary(&mesh.hexes).into_iter().flat_map(|(quad, _)| halves(quad)).collect()
+}
