@@ -15,8 +15,8 @@ const PICTURE = join(root, 'docs', 'screenshot.png');
 const HEXES = join(root, 'docs', 'hexes.png');
 const THUMBNAILS = join(root, 'www', 'app', 'thumbnails');
 
-/** Spot with its muzzle and a leg refined. */
-const LINK = '#example=spot&edge-length=0.06&region=sphere:0,0.42,-0.45,0.32:h=0.015&region=cylinder:-0.3,-0.5,-0.1,-0.3,-0.2,-0.1,0.17:level=4&colour=level';
+/** A pawn with its head and its foot refined: coarse enough that transitions are seen. */
+const LINK = '#example=pawn&levels=1&region=sphere:1.7468,-1.36,0.52,0.09:level=3&region=box:1.55,-1.5,0,1.95,-1,0.1:level=2&colour=level';
 
 /** A box of hexes around Spot, refined at its surface and cut open along its middle. */
 const HEX_LINK = '#example=spot&job=hexes&spacing=0.2&margin=0.3&at-surface=2&method=two&section=1,0,0,0';
@@ -42,7 +42,7 @@ await main(async () => {
   const server = await serveFolder(SITE);
   const browser = await launchBrowser();
   try {
-    await takePicture(browser, `${server.url}${LINK}`, PICTURE, TURN.spot);
+    await takePicture(browser, `${server.url}${LINK}`, PICTURE, 0);
     await takePicture(browser, `${server.url}${HEX_LINK}`, HEXES, 0);
     mkdirSync(THUMBNAILS, { recursive: true });
     for (const scheme of ['light', 'dark']) await takeThumbnails(browser, server.url, scheme);
