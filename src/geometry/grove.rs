@@ -3,7 +3,7 @@
 //! A tree is packed at one go, which for millions of leaves takes seconds. So these are divided into blocks of neighbours
 //! with a tree each: the monitor is asked between them. Few leaves are one block.
 
-use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use rstar::{AABB, RTree, RTreeObject};
 
 use super::{Aabb, Point};
 use crate::{Cancelled, Monitor};
@@ -44,31 +44,6 @@ impl<T: RTreeObject<Envelope = AABB<[f64; 3]>>> Grove<T> {
         let query = *query;
         let near = self.blocks.iter().filter(move |(bounds, _)| bounds.touches(&query));
         near.flat_map(move |(_, tree)| tree.locate_in_envelope_intersecting(envelope))
-    }
-}
-
-impl<T: RTreeObject<Envelope = AABB<[f64; 3]>> + PointDistance> Grove<T> {
-    /// The leaf that is nearest to `p`; `None` if there are none.
-    pub fn nearest(&self, p: Point) -> Option<&T> {
-        let point = p.to_array();
-        if let [(_, tree)] = &self.blocks[..] {
-            return tree.nearest_neighbor(point);
-        }
-        let away = |(bounds, tree)| (Aabb::distance_squared(bounds, p), tree);
-        let mut blocks: Vec<(f64, &RTree<T>)> = self.blocks.iter().map(|(b, tree)| away((b, tree))).collect();
-        blocks.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut best: Option<(f64, &T)> = None;
-        for (bound, tree) in blocks {
-            if best.is_some_and(|(distance, _)| bound > distance) {
-                break;
-            }
-            let Some(leaf) = tree.nearest_neighbor(point) else { continue };
-            let distance = leaf.distance_2(&point);
-            if best.is_none_or(|(least, _)| distance < least) {
-                best = Some((distance, leaf));
-            }
-        }
-        best.map(|(_, leaf)| leaf)
     }
 }
 

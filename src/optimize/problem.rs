@@ -89,6 +89,15 @@ impl Problem {
         &self.around[self.starts[node as usize] as usize..self.starts[node as usize + 1] as usize]
     }
 
+    /// Where a movable node of the mesh is.
+    ///
+    /// # Panics
+    /// If it is no movable node of a cell.
+    pub(crate) fn place(&self, node: NodeId) -> Point {
+        let local = self.nodes[..self.movable()].binary_search(&node).expect("a movable node");
+        self.points[local]
+    }
+
     /// Where the corners of a cell are.
     pub(crate) fn corners(&self, cell: usize) -> [Point; 8] {
         self.cells[cell].map(|n| self.points[n as usize])

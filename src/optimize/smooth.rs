@@ -9,7 +9,7 @@
 use super::energy::Weights;
 use super::guide::Guide;
 use super::problem::Problem;
-use super::sweep::{Moved, Rules, sweep};
+use super::sweep::{ASLEEP, Moved, Rules, sweep};
 use super::{OptimizeOptions, SMOOTHING};
 use crate::mesh::quality::scaled_jacobian;
 use crate::parallel;
@@ -59,7 +59,7 @@ pub(crate) fn smooth(
         for round in 0..options.smooth_sweeps {
             monitor.checkpoint(SMOOTHING, (index * options.smooth_sweeps + round) as f64 / total)?;
             let worst = jacobians.iter().copied().fold(f64::INFINITY, f64::min);
-            let rules = Rules { guide, weights, eps: 0.0, floor: Some(worst) };
+            let rules = Rules { guide, weights, eps: 0.0, floor: Some(worst), asleep: ASLEEP };
             let (changed, moved) = keep_positive(problem, &mut awake, |problem, awake| {
                 sweep(problem, rules, &allowed, awake, monitor)
             })?;

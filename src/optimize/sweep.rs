@@ -15,8 +15,8 @@ const BATCH: usize = 4096;
 /// A step at most this share of the node's mean edge.
 const LONGEST: f64 = 0.5;
 
-/// A step below this share of the node's mean edge wakes no neighbours.
-const ASLEEP: f64 = 5e-3;
+/// A step below this share of the node's mean edge wakes no neighbours, where cells are smoothed.
+pub(crate) const ASLEEP: f64 = 5e-3;
 
 /// The first step tried, in units of Newton's: what one node gains by the longer step is little less, and what is to
 /// wander through many nodes, such as the thickness of a layer, gets there in half the rounds. A node that is drawn would
@@ -36,6 +36,8 @@ pub(crate) struct Rules<'a> {
     /// The least scaled Jacobian around a node may fall, but not below this; any, where there is none. Positive cells
     /// stay positive where there is one.
     pub(crate) floor: Option<f64>,
+    /// A step below this share of the node's mean edge wakes no neighbours.
+    pub(crate) asleep: f64,
 }
 
 /// Moves the nodes that are `awake`, colour by colour. A node falls asleep when it hardly moves, and wakes its
@@ -136,7 +138,7 @@ fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Optio
         (share, energy) = (2.0 * share, lower);
     }
     let to = at(share);
-    Some(Step { to, far: to.distance(from) > ASLEEP * size })
+    Some(Step { to, far: to.distance(from) > rules.asleep * size })
 }
 
 /// The greatest r^2 that a node's corners may have, of which the greatest is `worst`: the scaled Jacobian may fall, but

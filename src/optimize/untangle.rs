@@ -8,7 +8,7 @@
 use super::energy::Weights;
 use super::guide::Guide;
 use super::problem::Problem;
-use super::sweep::{Rules, sweep};
+use super::sweep::{ASLEEP, Rules, sweep};
 use super::{OptimizeOptions, UNTANGLING};
 use crate::mesh::numbering::hex::NEIGHBOURS;
 use crate::{Cancelled, Monitor};
@@ -52,7 +52,7 @@ pub(crate) fn untangle(
         for _ in 0..ROUNDS {
             let least = least_determinant(problem, &tangled).min(0.0);
             let eps = (SMALL + DEPTH * least * least).sqrt();
-            let rules = Rules { guide, weights: SHAPE, eps, floor: None };
+            let rules = Rules { guide, weights: SHAPE, eps, floor: None, asleep: ASLEEP };
             sweep(problem, rules, &allowed, &mut awake, monitor)?;
             // The energy changes with eps.
             awake.clone_from(&allowed);

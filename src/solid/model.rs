@@ -244,6 +244,11 @@ impl SolidModel {
         self.by_curve[c.index()].nearest(p)
     }
 
+    /// The point of a curve that is so far along it from its start; beyond its ends these.
+    pub fn point_on_curve(&self, c: CurveId, at: f64) -> Point {
+        self.by_curve[c.index()].point_at(at)
+    }
+
     /// How far `p` is from the boundary; negative inside.
     pub fn signed_distance(&self, p: Point) -> f64 {
         let found = self.all.nearest(p);

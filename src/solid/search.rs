@@ -75,6 +75,15 @@ impl CurveSearch {
         Self { tree: NearestTriangle::new(points.windows(2).map(|w| [w[0], w[1], w[1]])), points, at }
     }
 
+    /// The point so far along the curve from its start; its ends beyond them.
+    pub fn point_at(&self, at: f64) -> Point {
+        let last = self.at.len() - 1;
+        let edge = self.at[1..last].partition_point(|&end| end <= at);
+        let [from, to] = [self.at[edge], self.at[edge + 1]];
+        let share = if to > from { ((at - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+        self.points[edge].lerp(self.points[edge + 1], share)
+    }
+
     pub fn nearest(&self, p: Point) -> CurveFoot {
         let edge = self.tree.nearest(p).expect("a curve has edges").triangle;
         let [a, b] = [self.points[edge], self.points[edge + 1]];

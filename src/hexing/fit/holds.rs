@@ -9,6 +9,9 @@ use crate::optimize::{Guide, Pull, Symmetric};
 /// A node is drawn to the tangent plane at its foot, and by this share to the foot itself.
 const TO_THE_FOOT: f64 = 0.15;
 
+/// Along its curve a node is drawn to its place by this share of what draws it across.
+const ALONG: f64 = 0.3;
+
 /// What holds a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Hold {
@@ -25,20 +28,28 @@ pub(super) struct Holds<'a> {
     pub(super) target: &'a dyn Target,
     pub(super) anchors: &'a [Anchor],
     pub(super) holds: Vec<Hold>,
+    /// Where on its curve a node is drawn, if that is not its foot.
+    pub(super) places: Vec<Option<Point>>,
     /// Of the pull, where lengths are in units of the node's mean edge.
     pub(super) weight: f64,
+    /// The share of that for nodes of surfaces.
+    pub(super) surfaces: f64,
 }
 
 impl<'a> Holds<'a> {
     /// All nodes free.
     pub(super) fn free(target: &'a dyn Target, anchors: &'a [Anchor]) -> Self {
-        Self { target, anchors, holds: vec![Hold::Free; anchors.len()], weight: 0.0 }
+        Self::with(target, anchors, vec![Hold::Free; anchors.len()])
     }
 
     /// All boundary nodes drawn.
     pub(super) fn drawn(target: &'a dyn Target, anchors: &'a [Anchor]) -> Self {
         let hold = |&anchor: &Anchor| if anchor == Anchor::Inside { Hold::Free } else { Hold::Drawn };
-        Self { target, anchors, holds: anchors.iter().map(hold).collect(), weight: 0.0 }
+        Self::with(target, anchors, anchors.iter().map(hold).collect())
+    }
+
+    fn with(target: &'a dyn Target, anchors: &'a [Anchor], holds: Vec<Hold>) -> Self {
+        Self { target, anchors, places: vec![None; holds.len()], holds, weight: 0.0, surfaces: 1.0 }
     }
 
     pub(super) fn is(&self, node: NodeId, hold: Hold) -> bool {
@@ -84,11 +95,13 @@ impl Guide for Holds<'_> {
         let anchor = self.anchors[node.index()];
         let foot = self.target.foot(anchor, p)?;
         let along = Symmetric::outer(foot.direction);
-        let shape = match anchor {
-            Anchor::Surface(_) => along + Symmetric::IDENTITY * TO_THE_FOOT,
-            Anchor::Curve(_) => Symmetric::IDENTITY * (1.0 + TO_THE_FOOT) + along * -1.0,
+        let place = self.places[node.index()];
+        let shape = match (anchor, place) {
+            (Anchor::Surface(_), _) => (along + Symmetric::IDENTITY * TO_THE_FOOT) * self.surfaces,
+            (Anchor::Curve(_), None) => Symmetric::IDENTITY * (1.0 + TO_THE_FOOT) + along * -1.0,
+            (Anchor::Curve(_), Some(_)) => Symmetric::IDENTITY + along * (ALONG - 1.0),
             _ => Symmetric::IDENTITY,
         };
-        Some(Pull { to: foot.point, weight: shape * (self.weight / (size * size)) })
+        Some(Pull { to: place.unwrap_or(foot.point), weight: shape * (self.weight / (size * size)) })
     }
 }

@@ -2,7 +2,9 @@
 
 use super::super::correspondence::Correspondence;
 use super::super::sheets::SheetReport;
+use super::FITTING;
 use super::holds::Holds;
+use super::progress::Part;
 use super::target::Target;
 use crate::mesh::HexMesh;
 use crate::optimize::{OptimizeOptions, Problem, untangle};
@@ -27,10 +29,13 @@ pub(super) fn inflate(
     monitor: &dyn Monitor,
 ) -> Result<Inflated, Cancelled> {
     let (mut sweeps, mut taken_back) = (0, 0);
+    let mut range = [0.0, 0.5];
     loop {
         let mut problem = Problem::new(&mesh.positions, &mesh.hexes, |_| true);
         let holds = Holds::free(target, &on.anchors);
-        sweeps += untangle(&mut problem, &holds, &OptimizeOptions::default(), monitor)?;
+        let part = Part { whole: monitor, stage: FITTING, range };
+        sweeps += untangle(&mut problem, &holds, &OptimizeOptions::default(), &part)?;
+        range = [range[1], range[1].midpoint(1.0)];
         problem.find_positive();
         let tangled: Vec<u32> =
             (0u32..).zip(&problem.positive).filter(|(_, positive)| !**positive).map(|(h, _)| h).collect();

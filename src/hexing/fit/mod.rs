@@ -3,11 +3,11 @@
 //! The energy is that of [`optimize`](crate::optimize); the order of the steps makes the promise:
 //!
 //! 1. `inflate`: cells of new sheets are pushed open, all nodes free, until every cell is positive;
-//! 2. `pull`: boundary nodes are drawn to their corner, curve or surface, ever more strongly, and held there (`snap`) as
-//!    soon as the cells bear it. No step is taken that turns a cell over;
+//! 2. `pull`: boundary nodes are drawn to their corner, to their curve, `spread` along it, or to their surface, ever more
+//!    strongly, and held there (`snap`) as soon as the cells bear it. No step is taken that turns a cell over;
 //! 3. `unlock`: around nodes that got stuck the others are let go for a while;
-//! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: while
-//!    nodes are stuck, the last two steps are made once more.
+//! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: as long
+//!    as fewer nodes are stuck than before, the last two steps are made again, twice at most.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
 //! off the solid and is reported with its distance.
@@ -17,8 +17,10 @@
 
 mod holds;
 mod inflate;
+mod progress;
 mod pull;
 mod snap;
+mod spread;
 mod target;
 mod unlock;
 
@@ -32,7 +34,9 @@ use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
 use holds::{Hold, Holds};
 use inflate::inflate;
+use progress::Part;
 use pull::{Course, pull};
+use spread::chains;
 use target::{OnSolid, Target};
 use unlock::unlock;
 
@@ -41,8 +45,14 @@ const FITTING: Stage = Stage("fitting");
 /// Drawing the boundary makes no cell worse than this, unless it is already.
 const FLOOR: f64 = 0.2;
 
-/// How often stuck nodes are unlocked and cells smoothed, at most.
-const ROUNDS: usize = 2;
+/// The share of the work that is done where the pull starts, and where stuck nodes are unlocked and cells smoothed, again as
+/// long as that frees some.
+const PULL: f64 = 0.1;
+const UNLOCK: [f64; 3] = [0.4, 0.6, 0.8];
+
+/// How much of the work a round of these is, and unlocking alone.
+const ROUND: f64 = 0.2;
+const UNLOCKING: f64 = 0.1;
 
 /// Rings of cells around the boundary that are moved at first; others follow where these move far.
 const RINGS: usize = 3;
@@ -104,7 +114,7 @@ pub fn fit(
     monitor: &dyn Monitor,
 ) -> Result<FitReport, Cancelled> {
     let reduction = on.reduction.clone();
-    fit_to(mesh, on, sheets, &OnSolid { solid, reduction: &reduction }, options, monitor)
+    fit_to(mesh, on, sheets, &OnSolid::new(solid, &reduction), options, monitor)
 }
 
 fn fit_to(
@@ -115,9 +125,12 @@ fn fit_to(
     options: &FitOptions,
     monitor: &dyn Monitor,
 ) -> Result<FitReport, Cancelled> {
-    let inflated = inflate(mesh, on, sheets, target, monitor)?;
+    let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
+    monitor.checkpoint(FITTING, 0.0)?;
+    let inflated = inflate(mesh, on, sheets, target, &part(0.0, PULL))?;
     let (mut problem, mut sweeps) = (inflated.problem, inflated.sweeps);
     let mut holds = Holds::drawn(target, &on.anchors);
+    let chains = chains(on, target.solid(), |n| problem.place(n));
     // Corners first, then curves, surfaces, and the inside.
     problem.order_by(4, |n| on.anchors[n.index()].freedom());
 
@@ -126,15 +139,17 @@ fn fit_to(
     let cells: Vec<usize> = problem.cells_around(&boundary).into_iter().map(|c| c as usize).collect();
     let mut awake = problem.rings_around(&cells, RINGS);
     let course = Course { stage: FITTING, sweeps: options.sweeps, floor: FLOOR };
-    sweeps += pull(&mut problem, &mut holds, &mut awake, course, monitor)?;
-    for _ in 0..ROUNDS {
-        sweeps += unlock(&mut problem, &mut holds, monitor)?;
+    sweeps += pull(&mut problem, &mut holds, &chains, &mut awake, course, &part(PULL, UNLOCK[0]))?;
+    for from in UNLOCK {
+        let stuck = holds.stuck();
+        sweeps += unlock(&mut problem, &mut holds, &chains, &part(from, from + UNLOCKING))?;
         holds.weight = 0.0;
-        sweeps += smooth(&mut problem, &holds, &options.smoothing, monitor)?;
-        if holds.stuck() == 0 {
+        sweeps += smooth(&mut problem, &holds, &options.smoothing, &part(from + UNLOCKING, from + ROUND))?;
+        if holds.stuck() == 0 || holds.stuck() >= stuck {
             break;
         }
     }
+    monitor.checkpoint(FITTING, 1.0)?;
 
     problem.write_back(&mut mesh.positions);
     let mut report = measured(mesh, &problem, &holds);

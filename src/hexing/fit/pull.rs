@@ -1,12 +1,15 @@
 //! Draws the boundary to the solid, ever more strongly, while no cell is turned over or made bad.
 //!
 //! 1. A sweep over corners, then curves, surfaces and the inside lowers the shape energy and that of the pull, which
-//!    grows from sweep to sweep. Steps that turn a cell over or make one worse than [`FLOOR`] are not taken.
-//! 2. From the fifth sweep on nodes are put on their feet, first where the cells there stay good, in the end wherever
-//!    they stay positive. From then on they slide on the solid.
+//!    grows from sweep to sweep. Steps that turn a cell over or make one worse than the floor are not taken.
+//! 2. Curves come first: surfaces hardly pull in the first sweeps, so that cells go along with their curves and the feet
+//!    of the nodes beside these are on the right side of them.
+//! 3. From the fifth sweep on nodes are put on their feet, first where the cells there stay good; where that gets on no
+//!    more, wherever they stay positive. From then on they slide on the solid.
 
 use super::holds::{Hold, Holds};
-use super::snap::snap;
+use super::snap::{Bearable, snap};
+use super::spread::{Chain, spread};
 use crate::optimize::{Problem, Rules, Weights, keep_positive, sweep};
 use crate::{Cancelled, Monitor, Stage};
 
@@ -17,8 +20,23 @@ const GROWTH: f64 = 1.35;
 /// The first sweep after which nodes are put on their feet.
 const FIRST_SNAP: usize = 4;
 
-/// By the share of the sweeps that are done: the least scaled Jacobian that may be left where a node was put on its foot.
-const LEAST: [(f64, f64); 3] = [(0.4, 0.3), (0.8, 0.15), (1.0, 0.02)];
+/// Sweeps in which curves are ahead of surfaces, and the share of the weight that surfaces have then.
+const CURVES_FIRST: usize = 6;
+const BEHIND: f64 = 0.1;
+
+/// The least scaled Jacobian that may be left where a node was put on its foot, and the energy of the cells. The higher
+/// powers push back where a cell is about to become bad, where steps of the lower ones would be refused.
+const LEVELS: [(f64, Weights); 3] = [
+    (0.3, Weights { doublings: 0, mu: 0.0 }),
+    (0.15, Weights { doublings: 1, mu: 0.3 }),
+    (0.02, Weights { doublings: 2, mu: 0.9 }),
+];
+
+/// Sweeps in a row after which the next of these is taken, if no fewer nodes are off.
+const PATIENCE: usize = 4;
+
+/// A step below this share of a node's mean edge wakes no neighbours: what is left is for the smoothing.
+const ASLEEP: f64 = 0.02;
 
 /// What a pull may cost.
 #[derive(Clone, Copy, Debug)]
@@ -34,28 +52,38 @@ pub(super) struct Course {
 pub(super) fn pull(
     problem: &mut Problem,
     holds: &mut Holds,
+    chains: &[Chain],
     awake: &mut Vec<bool>,
     course: Course,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let allowed = vec![true; problem.movable()];
-    let weights = Weights { doublings: 0, mu: 0.0 };
     holds.weight = WEIGHT;
+    let (mut level, mut fewest, mut in_vain) = (0, usize::MAX, 0);
     for round in 0..course.sweeps {
-        let done = round as f64 / course.sweeps as f64;
-        monitor.checkpoint(course.stage, done)?;
+        monitor.checkpoint(course.stage, round as f64 / course.sweeps as f64)?;
+        spread(chains, holds, |node| problem.place(node));
+        holds.surfaces = if round < CURVES_FIRST { BEHIND } else { 1.0 };
         for (awake, &node) in awake.iter_mut().zip(&problem.nodes) {
             *awake |= holds.is(node, Hold::Drawn);
         }
-        let rules = Rules { guide: &*holds, weights, eps: 0.0, floor: Some(course.floor) };
-        let (_, moved) =
-            keep_positive(problem, awake, |problem, awake| sweep(problem, rules, &allowed, awake, monitor))?;
+        let (least, weights) = LEVELS[level];
+        let rules = Rules { guide: &*holds, weights, eps: 0.0, floor: Some(course.floor), asleep: ASLEEP };
+        keep_positive(problem, awake, |problem, awake| sweep(problem, rules, &allowed, awake, monitor))?;
         if round >= FIRST_SNAP {
-            let least = LEAST.iter().find(|(share, _)| done < *share).map_or(0.0, |&(_, least)| least);
-            snap(problem, holds, least, &allowed, awake, monitor)?;
+            let freedom = if round < CURVES_FIRST { 1 } else { 2 };
+            snap(problem, holds, Bearable { least, freedom }, &allowed, awake, monitor)?;
         }
-        if moved.far == 0 && holds.stuck() == 0 {
-            return Ok(round + 1);
+        if round >= CURVES_FIRST {
+            let stuck = holds.stuck();
+            in_vain = if stuck < fewest { 0 } else { in_vain + 1 };
+            fewest = fewest.min(stuck);
+            if in_vain >= PATIENCE && level + 1 < LEVELS.len() {
+                (level, in_vain) = (level + 1, 0);
+            }
+            if stuck == 0 || in_vain >= PATIENCE {
+                return Ok(round + 1);
+            }
         }
         holds.weight *= GROWTH;
     }

@@ -3,12 +3,13 @@
 //! Around a stuck node the others slide on the solid already, and there is no room. Within some rings all are drawn
 //! again instead of held, so that cells can turn a little away from the solid and come back in another way.
 
+use super::FITTING;
 use super::holds::{Hold, Holds};
+use super::progress::Part;
 use super::pull::{Course, pull};
+use super::spread::Chain;
 use crate::optimize::Problem;
-use crate::{Cancelled, Monitor, Stage};
-
-const UNLOCKING: Stage = Stage("unlocking");
+use crate::{Cancelled, Monitor};
 
 /// Rings of cells around a stuck node where nodes are let go, in each attempt.
 const RINGS: [usize; 3] = [1, 2, 4];
@@ -22,10 +23,11 @@ const FLOOR: f64 = 0.05;
 pub(super) fn unlock(
     problem: &mut Problem,
     holds: &mut Holds,
+    chains: &[Chain],
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let mut sweeps = 0;
-    for rings in RINGS {
+    for (k, rings) in RINGS.into_iter().enumerate() {
         let stuck = holds.stuck();
         if stuck == 0 {
             break;
@@ -41,8 +43,10 @@ pub(super) fn unlock(
                 *hold = Hold::Drawn;
             }
         }
-        let course = Course { stage: UNLOCKING, sweeps: SWEEPS, floor: FLOOR };
-        sweeps += pull(problem, holds, &mut awake, course, monitor)?;
+        let course = Course { stage: FITTING, sweeps: SWEEPS, floor: FLOOR };
+        let part =
+            Part { whole: monitor, stage: FITTING, range: [k, k + 1].map(|k| k as f64 / RINGS.len() as f64) };
+        sweeps += pull(problem, holds, chains, &mut awake, course, &part)?;
         if holds.stuck() >= stuck {
             (problem.points, holds.holds) = before;
             problem.find_positive();

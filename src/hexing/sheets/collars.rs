@@ -11,19 +11,27 @@
 //!   a---v---b        a---v---b
 //! ```
 //!
-//! 1. The hexes of flat corners that touch each other draw back together.
-//! 2. Where such a set is no manifold, the hexes between its members join it, a few times; then it is given up.
+//! 1. The quads of flat corners on one side of a curve that touch each other draw back together, and with them the quads
+//!    around a node of the curve that has more than two there: it is left with two. Those across the curve are for
+//!    themselves: drawn back together, the curve would turn off between them, and be flat there.
+//! 2. Where such a set is no manifold, the quads between its members join it, a few times; then it is given up.
+//! 3. A pillow can make corners flat at a curve that it crosses: all is done again, a few times.
 
-use super::super::correspondence::Correspondence;
-use super::boundary::Boundary;
+use std::collections::BTreeSet;
+
+use super::super::correspondence::{Anchor, Correspondence};
+use super::boundary::{Boundary, BoundaryEdges};
 use super::groups::Groups;
-use super::need::Look;
+use super::need::{FlatCorner, Look};
 use super::shrink::{Layer, ShrinkSet, Torn, pillow};
 use crate::mesh::topology::Sets;
 use crate::mesh::{HexMesh, NodeId};
 
-/// How often the hexes around torn nodes join a set.
+/// How often the quads around torn nodes join a set.
 const GROWTHS: usize = 3;
+
+/// How often flat corners are looked for.
+const ROUNDS: usize = 4;
 
 /// What came of the flat corners.
 #[derive(Default)]
@@ -40,66 +48,110 @@ pub(super) fn insert(
     boundary: &mut Boundary,
     groups: &Groups,
 ) -> Collars {
-    let corners = Look::new(mesh, on, boundary, groups).flat_corners();
-    let hexes: Vec<(u32, NodeId)> =
-        corners.iter().map(|corner| (boundary.hex(corner.quad) as u32, corner.node)).collect();
     let mut done = Collars::default();
-    for set in touching(mesh, hexes) {
-        let nodes: Vec<NodeId> = set.iter().map(|&(_, node)| node).collect();
-        let mut hexes: Vec<u32> = set.iter().map(|&(hex, _)| hex).collect();
-        hexes.dedup();
-        match pillow_grown(mesh, on, boundary, hexes) {
-            Some(layer) => done.layers.push(layer),
-            None => done.flat.extend(nodes),
+    for _ in 0..ROUNDS {
+        let corners = Look::new(mesh, on, boundary, groups).flat_corners();
+        let before = done.layers.len();
+        for quads in touching(&Sides::of(on, boundary), &corners) {
+            done.layers.extend(pillow_grown(mesh, on, boundary, quads));
+        }
+        if done.layers.len() == before {
+            break;
         }
     }
+    done.flat =
+        Look::new(mesh, on, boundary, groups).flat_corners().iter().map(|corner| corner.node).collect();
     done.flat.sort_unstable();
     done.flat.dedup();
     done
 }
 
-/// Pillows the hexes, with those that are needed to make the set a manifold.
+/// Pillows the hexes of the quads, with those that are needed to make the set a manifold.
 fn pillow_grown(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
     boundary: &mut Boundary,
-    mut hexes: Vec<u32>,
+    mut quads: BTreeSet<u32>,
 ) -> Option<Layer> {
     for _ in 0..=GROWTHS {
+        let mut hexes: Vec<u32> = quads.iter().map(|&q| boundary.hex(q) as u32).collect();
+        hexes.sort_unstable();
+        hexes.dedup();
         match pillow(mesh, on, boundary, &ShrinkSet::Hexes(&hexes)) {
             Ok(layer) => return Some(layer),
             Err(Torn(nodes)) => {
-                let surfaces: Vec<_> = (0..boundary.quads.len())
-                    .filter(|&q| hexes.binary_search(&(boundary.hex(q as u32) as u32)).is_ok())
-                    .map(|q| boundary.surface[q])
+                let sides = Sides::of(on, boundary);
+                let is_torn = |n: &NodeId| nodes.binary_search(n).is_ok();
+                let more: Vec<u32> = quads
+                    .iter()
+                    .flat_map(|&q| boundary.quads[q as usize].map(|n| (q, n)))
+                    .filter(|(_, n)| is_torn(n))
+                    .flat_map(|(q, n)| sides.around(q, n))
                     .collect();
-                let more = (0..boundary.quads.len()).filter(|&q| {
-                    surfaces.contains(&boundary.surface[q])
-                        && boundary.quads[q].iter().any(|n| nodes.binary_search(n).is_ok())
-                });
-                hexes.extend(more.map(|q| boundary.hex(q as u32) as u32));
-                hexes.sort_unstable();
-                hexes.dedup();
+                let before = quads.len();
+                quads.extend(more);
+                if quads.len() == before {
+                    return None;
+                }
             }
         }
     }
     None
 }
 
-/// The hexes, with a node each, in sets that share nodes; each set in the order of hexes.
-fn touching(mesh: &HexMesh, mut hexes: Vec<(u32, NodeId)>) -> Vec<Vec<(u32, NodeId)>> {
-    hexes.sort_unstable();
-    let mut at_node: Vec<(NodeId, u32)> = Vec::new();
-    for (i, &(hex, _)) in (0u32..).zip(&hexes) {
-        at_node.extend(mesh.hexes[hex as usize].map(|n| (n, i)));
+/// The quads of the corners, in sets that share nodes on one side of the curves.
+fn touching(sides: &Sides, corners: &[FlatCorner]) -> Vec<BTreeSet<u32>> {
+    let mut quads: Vec<u32> = corners.iter().flat_map(|corner| sides.crowded(corner.quad)).collect();
+    quads.sort_unstable();
+    quads.dedup();
+    let mut sets = Sets::new(quads.len());
+    for (i, &q) in (0u32..).zip(&quads) {
+        for near in sides.boundary.quads[q as usize].iter().flat_map(|&n| sides.around(q, n)) {
+            if let Ok(other) = quads.binary_search(&near) {
+                sets.join(i, other as u32, false);
+            }
+        }
     }
-    at_node.sort_unstable();
-    let mut sets = Sets::new(hexes.len());
-    for pair in at_node.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-        sets.join(pair[0].1, pair[1].1, false);
-    }
-    let mut by_root: Vec<(u32, (u32, NodeId))> =
-        (0u32..).zip(hexes).map(|(i, hex)| (sets.root(i).0, hex)).collect();
+    let mut by_root: Vec<(u32, u32)> = (0u32..).zip(quads).map(|(i, q)| (sets.root(i).0, q)).collect();
     by_root.sort_unstable();
-    by_root.chunk_by(|a, b| a.0 == b.0).map(|set| set.iter().map(|&(_, hex)| hex).collect()).collect()
+    by_root.chunk_by(|a, b| a.0 == b.0).map(|set| set.iter().map(|&(_, q)| q).collect()).collect()
+}
+
+/// Walks around nodes that stay on one side of the curves.
+struct Sides<'a> {
+    on: &'a Correspondence,
+    boundary: &'a Boundary,
+    edges: BoundaryEdges,
+}
+
+impl<'a> Sides<'a> {
+    fn of(on: &'a Correspondence, boundary: &'a Boundary) -> Self {
+        Self { on, boundary, edges: boundary.edges(|_| true) }
+    }
+
+    /// The quad, and those with it on one side of a smooth curve at a node where there are more than two.
+    fn crowded(&self, quad: u32) -> Vec<u32> {
+        let nodes = self.boundary.quads[quad as usize];
+        let on_curves = nodes.into_iter().filter(|n| matches!(self.on.anchors[n.index()], Anchor::Curve(_)));
+        let crowds = on_curves.map(|n| self.around(quad, n)).filter(|quads| quads.len() > 2);
+        crowds.flatten().chain([quad]).collect()
+    }
+
+    /// The quads at `node` that are reached from `quad` without crossing a curve, itself among them.
+    fn around(&self, quad: u32, node: NodeId) -> Vec<u32> {
+        let mut reached = vec![quad];
+        let mut next = 0;
+        while next < reached.len() {
+            let nodes = self.boundary.quads[reached[next] as usize];
+            let k = nodes.iter().position(|&n| n == node).expect("quads around a node have it");
+            for beside in [nodes[(k + 1) % 4], nodes[(k + 3) % 4]] {
+                if self.on.curve_of(node, beside).is_none() {
+                    let at_edge = self.edges.quads([node, beside]).unwrap_or([quad; 2]);
+                    reached.extend(at_edge.into_iter().filter(|q| !reached.contains(q)).collect::<Vec<_>>());
+                }
+            }
+            next += 1;
+        }
+        reached
+    }
 }

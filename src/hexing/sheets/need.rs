@@ -3,7 +3,9 @@
 //! A group needs one if
 //! 1. a hex has two faces in it that share an edge, and no sharp curve runs there;
 //! 2. an edge between it and another group has not exactly one hex;
-//! 3. a quad of another group beside it has two edges on the curve between them, and no corner there.
+//! 3. a quad of another group beside it has two edges on the curve between them, and no corner there;
+//! 4. so has a quad of its own, at a curve within the group, whose hex has the quad across as well: collars need a hex
+//!    for each.
 
 use super::super::correspondence::Correspondence;
 use super::boundary::{Boundary, BoundaryEdges, ascending};
@@ -46,11 +48,12 @@ impl<'a> Look<'a> {
             }
         }
         for corner in self.flat_corners() {
-            corner.across.iter().map(|&quad| self.group(quad)).for_each(|group| {
-                if group != self.group(corner.quad) {
-                    need(group);
+            for &quad in &corner.across {
+                let is_bent = || self.boundary.hex(quad) == self.boundary.hex(corner.quad);
+                if self.group(quad) != self.group(corner.quad) || is_bent() {
+                    need(self.group(quad));
                 }
-            });
+            }
         }
         needs
     }
@@ -59,10 +62,8 @@ impl<'a> Look<'a> {
         self.groups.group(self.boundary.surface[quad as usize])
     }
 
-    fn curve(&self, ends: [NodeId; 2]) -> Option<CurveId> {
-        let ends = ascending(ends);
-        let place = self.on.edges.partition_point(|&(other, _)| other < ends);
-        self.on.edges.get(place).filter(|(other, _)| *other == ends).map(|&(_, curve)| curve)
+    fn curve(&self, [a, b]: [NodeId; 2]) -> Option<CurveId> {
+        self.on.curve_of(a, b)
     }
 
     /// The groups in which hexes have two faces that share an edge without a sharp curve.

@@ -155,6 +155,33 @@ fn a_boss_gets_collars_at_its_foot() {
     assert!(report.collars > 0 && report.collars <= 8, "{report:?}");
 }
 
+/// A crease that crosses the cubes of a box's top in steps: at every step a quad on each side of it has two edges there.
+#[test]
+fn a_crease_in_steps_gets_collars_on_both_sides() {
+    for slope in [0.25, 0.5, 1.0] {
+        let mesh = voxels(&cubes(8, |_| true));
+        let on = told(&mesh, |p, normal| match side_of_box(p, normal) {
+            5 => 5 + u32::from(p.y - 3.0 > slope * (p.x - 3.0)),
+            side => side,
+        });
+        let is_inside = |n: &NodeId| {
+            let p = mesh.positions[n.index()];
+            p.z == 8.0 && (p.truncate() - 4.0).abs().max_element() < 4.0
+        };
+        let crease = on.edges.iter().find(|(ends, _)| ends.iter().all(is_inside)).unwrap().1;
+        let mut is_flat = vec![false; on.edges.iter().map(|&(_, curve)| curve.index() + 1).max().unwrap()];
+        is_flat[crease.index()] = true;
+        let groups = Groups::given(&[0, 1, 2, 3, 4, 5, 5], &is_flat);
+        let Case { on, report, .. } = inserted(mesh, on, &groups);
+        assert_eq!((report.sheets, report.flat.len()), (0, 0), "{report:?}");
+        assert!(report.collars >= 2, "{report:?}");
+        // At most three quads on each side.
+        let quads_at = |n: usize| on.faces.iter().filter(|(quad, _)| quad.contains(&NodeId::new(n))).count();
+        let on_crease = (0..on.anchors.len()).filter(|&n| on.anchors[n] == Anchor::Curve(crease));
+        assert!(on_crease.map(quads_at).all(|count| (4..=6).contains(&count)));
+    }
+}
+
 /// A surface that touches itself at a node alone cannot be covered.
 #[test]
 fn a_pinched_sheet_is_refused() {

@@ -134,6 +134,8 @@ fn curves_and_surfaces_have_nearest_points_of_their_own() {
         let [a, b] = [curve.vertices[0], curve.vertices[2]].map(|v| cube.points()[v as usize]);
         assert!((foot.point - (a + foot.tangent * foot.at)).length() < 1e-15);
         assert_eq!(foot.tangent, (b - a) / 2.0);
+        assert!((cube.point_on_curve(CurveId::new(c), foot.at) - foot.point).length() < 1e-15);
+        assert_eq!([-1.0, 0.0, 2.0, 3.0].map(|at| cube.point_on_curve(CurveId::new(c), at)), [a, a, b, b]);
         assert!((foot.point - p.clamp(a.min(b), a.max(b))).length() < 1e-15);
     }
 }
