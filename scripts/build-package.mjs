@@ -11,7 +11,7 @@ import { dirname, join } from 'node:path';
 import { Failure, isMain, main, must, root } from './shell.mjs';
 
 const DIST = join(root, 'dist');
-const MODULES = ['mesher', 'mesher-threads', 'hexes', 'hexes-threads'].map((name) => `${name}/${name}.wasm`);
+const MODULES = ['mesher', 'mesher-threads', 'hexes', 'hexes-threads', 'solids', 'solids-threads'].map((name) => `${name}/${name}.wasm`);
 const ENTRIES = ['index', 'node', 'worker', 'node-worker'];
 
 /** Bundles the library, writes its types, and copies the modules. */

@@ -4,6 +4,8 @@
 //     www/wasm/mesher-threads/  mesher-threads.js mesher-threads.wasm   the same on a pool of workers
 //     www/wasm/hexes/           hexes.js hexes.wasm                     the refinement of hexes on one thread
 //     www/wasm/hexes-threads/   hexes-threads.js hexes-threads.wasm     the same on a pool of workers
+//     www/wasm/solids/          solids.js solids.wasm                   the mesher of solids on one thread
+//     www/wasm/solids-threads/  solids-threads.js solids-threads.wasm   the same on a pool of workers
 //     www/wasm/viewer/          viewer.js viewer.wasm                   the WebGL renderer
 //
 // Each .js has its .d.ts beside it and takes the module's address or bytes as an argument of its
@@ -74,6 +76,8 @@ const FLAVOURS = [
   { name: 'mesher-threads', features: 'quads,threads', ...ON_A_POOL },
   { name: 'hexes', features: 'hexes', ...ON_ONE_THREAD },
   { name: 'hexes-threads', features: 'hexes,threads', ...ON_A_POOL },
+  { name: 'solids', features: 'solids', ...ON_ONE_THREAD },
+  { name: 'solids-threads', features: 'solids,threads', ...ON_A_POOL },
   { name: 'viewer', features: 'viewer' },
 ];
 

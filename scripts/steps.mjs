@@ -41,7 +41,7 @@ function one(work) {
 }
 
 async function clippyWasm(options) {
-  for (const features of ['quads', 'hexes', 'quads,hexes,threads', 'viewer']) {
+  for (const features of ['quads', 'hexes', 'solids', 'quads,hexes,solids,threads', 'viewer']) {
     await must('cargo', ['clippy', '--lib', ...WASM, '--features', features, ...DENY], options);
   }
   await must('cargo', ['clippy', '--test', 'wasm', ...WASM, ...DENY], options);
@@ -53,7 +53,7 @@ async function clippyWasm(options) {
 async function documentation(options) {
   const strict = { ...options, env: { RUSTDOCFLAGS: '-D warnings' } };
   await must('cargo', ['doc', '--no-deps', '--lib'], strict);
-  await must('cargo', ['doc', '--no-deps', '--lib', ...WASM, '--features', 'quads,hexes,threads,viewer'], strict);
+  await must('cargo', ['doc', '--no-deps', '--lib', ...WASM, '--features', 'quads,hexes,solids,threads,viewer'], strict);
 }
 
 /** Unit and integration tests, by nextest where it is installed. */

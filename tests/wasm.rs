@@ -5,6 +5,8 @@
 mod cases;
 #[path = "fixtures/hex_cases.rs"]
 mod hex_cases;
+#[path = "fixtures/solid_cases.rs"]
+mod solid_cases;
 
 use hexmill::io::{self, Format};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
@@ -26,6 +28,13 @@ fn hexes_are_those_of_the_fixture() {
 }
 
 #[wasm_bindgen_test]
+fn solids_are_those_of_the_fixture() {
+    for case in solid_cases::solid_cases() {
+        assert_eq!(case.run(), case.expected, "{}", case.name);
+    }
+}
+
+#[wasm_bindgen_test]
 fn errors_name_the_line() {
     let error = io::read(b"v 0 0 0\nv 1 0 0\nf 1 2\n", Format::Obj).expect_err("a face of two nodes");
     assert_eq!(error.line, Some(3), "{error}");
@@ -35,7 +44,7 @@ fn errors_name_the_line() {
 #[wasm_bindgen_test]
 fn obj_survives_a_round_trip() {
     for case in cases::cases() {
-        let document = io::read(case.obj().as_bytes(), Format::Obj).expect("a case is a good OBJ");
+        let document = io::read(case.input.obj().as_bytes(), Format::Obj).expect("a case is a good OBJ");
         let written = io::write(&document, Format::Obj).expect("OBJ holds every surface");
         let again = io::read(&written, Format::Obj).expect("what was written can be read");
         assert_eq!(again, document, "{}", case.name);

@@ -7,19 +7,25 @@ use crate::mesh::topology::HexFaces;
 use crate::mesh::{BoundaryGroups, HexMesh, NodeId, TagSet, Tags};
 use crate::solid::SurfaceId;
 
-/// A group for each surface, named `surface-1` for the first. `faces` are all boundary faces of the mesh, in the order of
-/// [`hex_boundary`](crate::mesh::topology::hex_boundary), with the surface that each stands for.
-pub(super) fn groups_of(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> BoundaryGroups {
+/// Boundary faces by their hex and their number there, ascending, each with the surface that it stands for. `faces` are
+/// all boundary faces of the mesh, in the order of [`hex_boundary`](crate::mesh::topology::hex_boundary).
+pub(super) fn sides_of(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Vec<(u32, SurfaceId)> {
     let of_hexes = HexFaces::of(mesh.positions.len(), &mesh.hexes);
     let boundary = of_hexes.ids().filter(|&face| of_hexes.is_boundary(face));
     let mut sides: Vec<(u32, SurfaceId)> =
         boundary.zip(faces).map(|(face, &(_, surface))| (of_hexes.sides(face)[0], surface)).collect();
     sides.sort_unstable();
+    sides
+}
+
+/// A group for each surface that has one of these boundary faces, named `surface-1` for the first. The faces are 6 times
+/// the hex and the number there. `None` if they do not ascend.
+pub fn surface_groups(sides: &[(u32, SurfaceId)]) -> Option<BoundaryGroups> {
     let mut set_of = BTreeMap::new();
     let mut sets = Vec::new();
     let of_element = sides.iter().map(|&(_, surface)| {
         *set_of.entry(surface).or_insert_with(|| {
-            let number = surface.0 + 1;
+            let number = u64::from(surface.0) + 1;
             let groups = vec![format!("surface-{number}")];
             sets.push(TagSet { groups, number: i32::try_from(number).ok(), ..TagSet::default() });
             sets.len() as u32 - 1
@@ -27,11 +33,11 @@ pub(super) fn groups_of(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> B
     });
     let of_element = of_element.collect();
     let sides = sides.iter().map(|&(side, _)| side).collect();
-    BoundaryGroups::new(sides, Tags { sets, of_element }).expect("sides are ascending, each with its set")
+    BoundaryGroups::new(sides, Tags { sets, of_element })
 }
 
 /// A group of hexes for each of so many bodies, named `body-1` for the first, from the body of each hex.
-pub(super) fn body_tags(bodies: usize, body_of: Vec<u32>) -> Tags {
+pub fn body_tags(bodies: usize, body_of: Vec<u32>) -> Tags {
     let set = |body: usize| TagSet {
         groups: vec![format!("body-{}", body + 1)],
         number: i32::try_from(body + 1).ok(),

@@ -14,6 +14,7 @@ pub mod sheets;
 
 mod attempt;
 mod body;
+mod forecast;
 mod ground;
 mod groups;
 mod misses;
@@ -23,6 +24,8 @@ mod report;
 mod separate;
 
 pub use background::Background;
+pub use forecast::forecast_hexes;
+pub use groups::{body_tags, surface_groups};
 pub use options::{HexingError, HexingOptions};
 pub use pipeline::{HexedSolid, hex_solid};
 pub use report::{

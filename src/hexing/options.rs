@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::background::{Background, BackgroundError};
 use crate::Cancelled;
 use crate::sizing::Region;
-use crate::solid::SolidError;
+use crate::solid::{SolidError, SolidOptions};
 
 /// What [`hex_solid`](super::hex_solid) is to do. Lengths are in model units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,6 +34,15 @@ impl HexingOptions {
     pub const MOST_HEXES: u64 = 1 << 28;
     /// The most levels that can be asked for.
     pub const MOST_LEVELS: u8 = 4;
+
+    /// How the solid is found in its surface; without an edge length features are kept that would else be noise.
+    pub fn solid(&self) -> SolidOptions {
+        SolidOptions {
+            feature_angle: self.feature_angle,
+            edge_length: (self.edge_length != 0.0).then_some(self.edge_length),
+            ..SolidOptions::default()
+        }
+    }
 }
 
 impl Default for HexingOptions {

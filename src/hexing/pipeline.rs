@@ -12,11 +12,11 @@
 use super::background::check_size;
 use super::body::{Best, Body, mesh_body};
 use super::ground::coarsest;
-use super::groups::{body_tags, groups_of};
+use super::groups::{body_tags, sides_of, surface_groups};
 use super::options::{HexingError, HexingOptions, validate};
 use super::report::{BodyReport, HexingReport, LostFeature, ResultReport};
 use crate::mesh::{HexMesh, NodeId, PolygonMesh};
-use crate::solid::{CurveId, SolidModel, SolidOptions, SurfaceId};
+use crate::solid::{CurveId, SolidModel, SurfaceId};
 use crate::{Monitor, Stage};
 
 /// A mesh of a solid.
@@ -29,6 +29,14 @@ pub struct HexedSolid {
     pub faces: Vec<([NodeId; 4], SurfaceId)>,
     /// What was done, and what came of it.
     pub report: HexingReport,
+}
+
+impl HexedSolid {
+    /// All boundary faces by their hex and their number there (6 times the hex and the number), ascending, each with the
+    /// surface that it stands for: what [`surface_groups`](super::surface_groups) makes groups of.
+    pub fn sides(&self) -> Vec<(u32, SurfaceId)> {
+        sides_of(&self.mesh, &self.faces)
+    }
 }
 
 /// The stage in which the surface becomes a solid.
@@ -57,12 +65,7 @@ pub fn hex_solid(
     monitor: &dyn Monitor,
 ) -> Result<HexedSolid, HexingError> {
     validate(options)?;
-    let solid_options = SolidOptions {
-        feature_angle: options.feature_angle,
-        edge_length: Some(options.edge_length),
-        ..SolidOptions::default()
-    };
-    let (solid, found) = SolidModel::new(surface, &solid_options, monitor)?;
+    let (solid, found) = SolidModel::new(surface, &options.solid(), monitor)?;
     check_size(&solid, coarsest(options), options.max_hexes)?;
     let mut whole = Whole::new();
     if solid.body_count() == 1 {
@@ -81,7 +84,7 @@ pub fn hex_solid(
     if mesh.hexes.is_empty() {
         return Err(HexingError::NothingLeft { edge_length: options.edge_length });
     }
-    mesh.groups = groups_of(&mesh, &faces);
+    mesh.groups = surface_groups(&sides_of(&mesh, &faces)).expect("sides are ascending");
     if bodies.len() > 1 {
         mesh.tags = body_tags(bodies.len(), body_of);
     }

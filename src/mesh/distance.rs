@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::topology::hex_boundary;
+use super::{HexMesh, NodeId};
 use crate::geometry::{NearestTriangle, Point};
 use crate::{Cancelled, Monitor, Stage, parallel};
 
@@ -81,6 +83,36 @@ impl Distances {
     pub fn hausdorff(&self) -> f64 {
         self.mesh_to_surface.max.max(self.surface_to_mesh.max)
     }
+}
+
+/// For each hex how far its boundary faces are from a surface: the greatest distance of their nodes and middles, in model
+/// units. NaN for hexes without boundary faces, or if the surface is empty.
+///
+/// # Errors
+/// [`Cancelled`] when the monitor says so.
+pub fn distances_of_hexes(
+    mesh: &HexMesh,
+    surface: Triangles<'_>,
+    monitor: &dyn Monitor,
+) -> Result<Vec<f32>, Cancelled> {
+    let nearest = NearestTriangle::new(surface.corners());
+    let boundary = hex_boundary(&mesh.hexes);
+    let distance = |p: Point| nearest.closest_point(p).map_or(f64::NAN, |q| q.distance(p));
+    let farthest = |quad: &[NodeId; 4]| {
+        let corners = quad.map(|n| mesh.positions[n.index()]);
+        let middle = corners.iter().sum::<Point>() / 4.0;
+        corners.into_iter().map(distance).fold(distance(middle), f64::max)
+    };
+    let mut distances = vec![f32::NAN; mesh.hexes.len()];
+    for (number, batch) in boundary.chunks(BATCH).enumerate() {
+        monitor.checkpoint(MEASURING, (number * BATCH) as f64 / boundary.len() as f64)?;
+        let of_faces = parallel::collect(batch.len(), |k| farthest(&batch[k].0));
+        for (&(_, hex), of_face) in batch.iter().zip(of_faces) {
+            let of_hex = &mut distances[hex.index()];
+            *of_hex = of_hex.max(of_face as f32);
+        }
+    }
+    Ok(distances)
 }
 
 impl Triangles<'_> {
@@ -173,6 +205,8 @@ impl Distance {
 mod tests {
     use super::*;
     use crate::Silent;
+    use crate::geometry::Aabb;
+    use crate::mesh::{GridOptions, hex_grid};
 
     /// The corners of a right triangle of legs 3 in the plane at height `z`, and a point that it does not use.
     fn corners(z: f64) -> [Point; 4] {
@@ -192,6 +226,19 @@ mod tests {
             Distance { max: 2.0, mean: 2.0, rms: 2.0, farthest: [1.0, 1.0, 0.0], samples: 4 }
         );
         assert_eq!(distances.hausdorff(), 2.0);
+    }
+
+    #[test]
+    fn of_hexes_at_the_boundary_alone() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 100 };
+        let block = hex_grid(Aabb { min: Point::ZERO, max: Point::splat(3.0) }, &options).unwrap();
+        let floor = corners(-0.5);
+        let surface = Triangles { positions: &floor, triangles: &[[0, 1, 2]] };
+        let distances = distances_of_hexes(&block, surface, &Silent).unwrap();
+        // The corner under the triangle's right angle, and the one in the middle, which has no boundary face.
+        assert_eq!(distances[0], 1.5);
+        assert_eq!(distances.iter().filter(|d| d.is_nan()).count(), 1);
+        assert!(distances[13].is_nan());
     }
 
     #[test]

@@ -21,7 +21,7 @@ mod weld;
 pub use boundary_groups::BoundaryGroups;
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
 pub(crate) use distance::samples_beyond;
-pub use distance::{Distance, Distances, Triangles};
+pub use distance::{Distance, Distances, Triangles, distances_of_hexes};
 pub use faces::Faces;
 pub use grid::{GridError, GridOptions, hex_grid};
 pub use hash::{MeshHash, mesh_hash, polygon_hash};

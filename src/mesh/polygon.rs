@@ -1,7 +1,7 @@
 //! Polygon surface meshes: what a surface file holds.
 
 use super::{NodeId, Tags};
-use crate::geometry::{Aabb, Point};
+use crate::geometry::{Aabb, Point, triangulate};
 
 /// A surface of polygons, as a structure of arrays.
 ///
@@ -51,6 +51,19 @@ impl PolygonMesh {
     /// Number of faces.
     pub fn face_count(&self) -> usize {
         self.offsets.len() - 1
+    }
+
+    /// The faces cut into triangles, by their nodes.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let (mut triangles, mut corners, mut cut) = (Vec::new(), Vec::new(), Vec::new());
+        for nodes in self.faces() {
+            corners.clear();
+            corners.extend(nodes.iter().map(|n| self.positions[n.index()]));
+            cut.clear();
+            triangulate(&corners, &mut cut);
+            triangles.extend(cut.iter().map(|t| t.map(|k| nodes[k as usize].0)));
+        }
+        triangles
     }
 
     /// The nodes of face `f`, in order around it.

@@ -1,13 +1,11 @@
-//! Discs of constant size on the screen: handles and the pivot.
+//! Discs of constant size on the screen: handles, the pivot, and corners of a solid.
 
-use wgpu::{
-    BindGroupLayout, BlendState, CompareFunction, PrimitiveTopology, RenderPass, RenderPipeline,
-    VertexBufferLayout,
-};
+use wgpu::{BindGroupLayout, BlendState, PrimitiveTopology, RenderPass, RenderPipeline, VertexBufferLayout};
 
 use super::{
     gpu::Gpu,
     pipeline::{Recipe, shader},
+    place::{Pass, Place},
     stream::Stream,
 };
 use crate::scene::Disc;
@@ -18,27 +16,33 @@ const LAYOUT: VertexBufferLayout<'static> = VertexBufferLayout {
     attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x2, 2 => Unorm8x4, 3 => Unorm8x4],
 };
 
-/// Draws discs over everything.
+/// Draws discs.
 pub struct Discs {
-    pipeline: RenderPipeline,
+    pipelines: Vec<RenderPipeline>,
     discs: Stream<Disc>,
 }
 
 impl Discs {
     /// The drawable on a device.
-    pub fn new(gpu: &Gpu, frame: &BindGroupLayout) -> Self {
-        let recipe = Recipe {
-            label: "discs",
-            shader: shader!("discs.wgsl"),
-            groups: &[frame],
-            buffers: &[LAYOUT],
-            constants: &[],
-            topology: PrimitiveTopology::TriangleStrip,
-            cull: None,
-            blend: Some(BlendState::ALPHA_BLENDING),
-            depth: (CompareFunction::Always, false),
+    pub fn new(gpu: &Gpu, frame: &BindGroupLayout, place: Place) -> Self {
+        let pipeline = |pass: Pass| {
+            let recipe = Recipe {
+                label: "discs",
+                shader: shader!("discs.wgsl"),
+                groups: &[frame],
+                buffers: &[LAYOUT],
+                constants: &pass.constants(),
+                topology: PrimitiveTopology::TriangleStrip,
+                cull: None,
+                blend: Some(BlendState::ALPHA_BLENDING),
+                depth: (pass.compare, false),
+            };
+            recipe.build(&gpu.device, gpu.format())
         };
-        Self { pipeline: recipe.build(&gpu.device, gpu.format()), discs: Stream::new("discs") }
+        Self {
+            pipelines: place.passes().iter().copied().map(pipeline).collect(),
+            discs: Stream::new("discs"),
+        }
     }
 
     /// Replaces what is drawn.
@@ -48,9 +52,11 @@ impl Discs {
 
     /// Draws; bind group 0 must be the frame's.
     pub fn draw(&self, pass: &mut RenderPass<'_>) {
-        if let Some(count) = self.discs.bind(pass) {
-            pass.set_pipeline(&self.pipeline);
-            pass.draw(0..4, 0..count);
+        for pipeline in &self.pipelines {
+            if let Some(count) = self.discs.bind(pass) {
+                pass.set_pipeline(pipeline);
+                pass.draw(0..4, 0..count);
+            }
         }
     }
 }

@@ -1,13 +1,11 @@
 //! Lines of constant width on the screen.
 
-use wgpu::{
-    BindGroupLayout, BlendState, CompareFunction, PrimitiveTopology, RenderPass, RenderPipeline,
-    VertexBufferLayout,
-};
+use wgpu::{BindGroupLayout, BlendState, PrimitiveTopology, RenderPass, RenderPipeline, VertexBufferLayout};
 
 use super::{
     gpu::Gpu,
     pipeline::{Recipe, shader},
+    place::{Pass, Place},
     stream::Stream,
 };
 use crate::scene::Segment;
@@ -18,18 +16,6 @@ const LAYOUT: VertexBufferLayout<'static> = VertexBufferLayout {
     attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32, 3 => Unorm8x4],
 };
 
-/// Opacity of lines where something stands before them.
-const HIDDEN_OPACITY: f64 = 0.22;
-
-/// Where lines are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// Among the other things, faint where something stands before them.
-    InScene,
-    /// Over everything.
-    OnTop,
-}
-
 /// Draws segments.
 pub struct Lines {
     pipelines: Vec<RenderPipeline>,
@@ -39,27 +25,21 @@ pub struct Lines {
 impl Lines {
     /// The drawable on a device.
     pub fn new(gpu: &Gpu, frame: &BindGroupLayout, place: Place) -> Self {
-        let pipeline = |compare, opacity, on_top| {
+        let pipeline = |pass: Pass| {
             let recipe = Recipe {
                 label: "lines",
                 shader: shader!("lines.wgsl"),
                 groups: &[frame],
                 buffers: &[LAYOUT],
-                constants: &[("opacity", opacity), ("on_top", on_top)],
+                constants: &pass.constants(),
                 topology: PrimitiveTopology::TriangleStrip,
                 cull: None,
                 blend: Some(BlendState::ALPHA_BLENDING),
-                depth: (compare, false),
+                depth: (pass.compare, false),
             };
             recipe.build(&gpu.device, gpu.format())
         };
-        let pipelines = match place {
-            Place::InScene => vec![
-                pipeline(CompareFunction::Greater, HIDDEN_OPACITY, 0.0),
-                pipeline(CompareFunction::LessEqual, 1.0, 0.0),
-            ],
-            Place::OnTop => vec![pipeline(CompareFunction::Always, 1.0, 1.0)],
-        };
+        let pipelines = place.passes().iter().copied().map(pipeline).collect();
         Self { pipelines, segments: Stream::new("lines") }
     }
 

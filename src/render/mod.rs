@@ -12,6 +12,7 @@ mod gpu;
 mod lines;
 mod mesh;
 mod pipeline;
+mod place;
 mod renderer;
 mod solids;
 mod stream;

@@ -8,9 +8,10 @@ use super::{
     background::Background,
     discs::Discs,
     gpu::{Gpu, GpuError, Target},
-    lines::{Lines, Place},
+    lines::Lines,
     mesh::{MeshDrawable, MeshPipeline},
     pipeline::uniform,
+    place::Place,
     solids::Solids,
 };
 use crate::scene::{Palette, Placement, Rgba, Scene, Solid, Surface};
@@ -25,6 +26,7 @@ pub struct Renderer {
     mesh: Option<MeshDrawable>,
     solids: Solids,
     outlines: Lines,
+    points: Discs,
     front_lines: Lines,
     discs: Discs,
     /// The regions' buffers are out of date.
@@ -89,7 +91,8 @@ impl Renderer {
         let solids = Solids::new(&gpu, &layout);
         let outlines = Lines::new(&gpu, &layout, Place::InScene);
         let front_lines = Lines::new(&gpu, &layout, Place::OnTop);
-        let discs = Discs::new(&gpu, &layout);
+        let points = Discs::new(&gpu, &layout, Place::InScene);
+        let discs = Discs::new(&gpu, &layout, Place::OnTop);
         gpu.check()?;
         Ok(Self {
             gpu,
@@ -100,6 +103,7 @@ impl Renderer {
             mesh: None,
             solids,
             outlines,
+            points,
             front_lines,
             discs,
             regions_changed: true,
@@ -153,6 +157,7 @@ impl Renderer {
             let regions = scene.region_buffers();
             self.solids.set(&self.gpu, &regions.solids);
             self.outlines.set(&self.gpu, &regions.outlines);
+            self.points.set(&self.gpu, &regions.discs);
         }
         let front = scene.front_buffers();
         self.front_lines.set(&self.gpu, &front.lines);
@@ -174,6 +179,7 @@ impl Renderer {
         }
         self.solids.draw(pass);
         self.outlines.draw(pass);
+        self.points.draw(pass);
         self.front_lines.draw(pass);
         self.discs.draw(pass);
     }

@@ -3,7 +3,7 @@
 use glam::{DMat4, DVec2, Mat4, Vec4};
 
 use super::{Axis, Camera, Placement, Projection, Scene, camera::corners};
-use crate::geometry::Point;
+use crate::geometry::{Aabb, Point};
 
 impl Scene {
     /// The camera that shows everything from where it looks now.
@@ -37,8 +37,12 @@ impl Scene {
     /// The camera that shows a face and what is around it, or `None` if there is no such face.
     pub fn framed_face(&self, face: usize) -> Option<Camera> {
         let surface = self.surface().filter(|s| face < s.face_count())?;
-        let bounds = surface.face_bounds(face);
-        Some(self.framing(corners(&bounds.grown(FACE_SURROUNDINGS * bounds.diagonal()))))
+        Some(self.framed_box(&surface.face_bounds(face)))
+    }
+
+    /// The camera that shows a box and what is around it.
+    pub fn framed_box(&self, bounds: &Aabb) -> Camera {
+        self.framing(corners(&bounds.grown(SURROUNDINGS * bounds.diagonal())))
     }
 
     /// The camera that shows everything along an axis.
@@ -82,8 +86,8 @@ impl Scene {
 
 /// Least and greatest distance of the eye, in diagonals of what is shown.
 const ZOOM_LIMITS: [f64; 2] = [1e-5, 50.0];
-/// What is shown around a framed face, in diagonals of it.
-const FACE_SURROUNDINGS: f64 = 3.0;
+/// What is shown around a framed box, in diagonals of it.
+const SURROUNDINGS: f64 = 3.0;
 
 #[cfg(test)]
 mod tests {

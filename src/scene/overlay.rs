@@ -48,13 +48,15 @@ pub struct Disc {
     pub rim: Rgba,
 }
 
-/// Regions: they change only when a region does.
+/// Regions, and the features of a solid: they change only when those do.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RegionBuffers {
     /// Triangles, three corners each.
     pub solids: Vec<SolidVertex>,
-    /// Outlines.
+    /// Outlines, and lines of features.
     pub outlines: Vec<Segment>,
+    /// Points of features.
+    pub discs: Vec<Disc>,
 }
 
 /// What is drawn over everything else; it depends on the camera.

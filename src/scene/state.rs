@@ -5,8 +5,8 @@ use std::cell::OnceCell;
 use glam::DVec2;
 
 use super::{
-    Background, Bvh, Camera, Cutaway, Drag, Frame, FrontBuffers, Grip, Handle, Hit, Placement, RegionBuffers,
-    Surface, Viewport, handle, overlay,
+    Background, Bvh, Camera, Cutaway, Drag, FeatureLine, Frame, FrontBuffers, Grip, Handle, Hit, Placement,
+    RegionBuffers, Surface, Viewport, handle, overlay,
 };
 use crate::{
     geometry::{Aabb, Point},
@@ -48,6 +48,8 @@ pub struct Scene {
     pub(super) cutaway: Option<Cutaway>,
     /// A box whose edges are drawn.
     pub(super) frame_box: Option<Aabb>,
+    /// The features of a solid.
+    features: Vec<FeatureLine>,
     regions: Vec<Shape>,
     placements: Vec<Option<Placement>>,
     selected: Option<usize>,
@@ -69,6 +71,7 @@ impl Default for Scene {
             tree: OnceCell::new(),
             cutaway: None,
             frame_box: None,
+            features: Vec::new(),
             regions: Vec::new(),
             placements: Vec::new(),
             selected: None,
@@ -103,6 +106,11 @@ impl Scene {
     /// Draws the edges of a box, in world coordinates, or of none.
     pub fn set_box(&mut self, frame_box: Option<Aabb>) {
         self.frame_box = frame_box;
+    }
+
+    /// Draws the features of a solid, or none.
+    pub fn set_features(&mut self, features: Vec<FeatureLine>) {
+        self.features = features;
     }
 
     /// The regions.
@@ -231,11 +239,13 @@ impl Scene {
             .map(|(i, _)| i)
     }
 
-    /// Draw buffers of the regions and of the box.
+    /// Draw buffers of the regions, of the box and of the features.
     pub fn region_buffers(&self) -> RegionBuffers {
         let (theme, frame) = (self.style.background.theme(), self.frame());
         let mut buffers = overlay::region_buffers(&self.placements, self.selected(), &frame, &theme);
         buffers.outlines.extend(self.frame_box.iter().flat_map(|b| overlay::box_outline(b, &frame, &theme)));
+        buffers.outlines.extend(self.features.iter().flat_map(|line| line.segments(&frame, &theme)));
+        buffers.discs.extend(self.features.iter().filter_map(|line| line.disc(&frame, &theme)));
         buffers
     }
 

@@ -35,6 +35,14 @@ pub struct Theme {
     pub selected: Rgba,
     /// The plane that cuts a hex mesh, and its handle.
     pub section: Rgba,
+    /// Curves at which a solid is convex.
+    pub convex: Rgba,
+    /// Curves at which it is concave.
+    pub concave: Rgba,
+    /// Corners of a solid.
+    pub corner: Rgba,
+    /// What a mesh does not show of a solid.
+    pub lost: Rgba,
     /// Inside of handles.
     pub handle: Rgba,
     /// The axes x, y and z.
@@ -55,6 +63,10 @@ impl Background {
                 region: [196, 112, 0, 255],
                 selected: [232, 89, 12, 255],
                 section: [36, 83, 201, 255],
+                convex: [0, 122, 128, 255],
+                concave: [134, 58, 190, 255],
+                corner: [10, 78, 92, 255],
+                lost: [220, 28, 62, 255],
                 handle: [255, 255, 255, 255],
                 axes: [[214, 57, 57, 255], [47, 143, 58, 255], [45, 98, 214, 255]],
             },
@@ -68,6 +80,10 @@ impl Background {
                 region: [255, 179, 71, 255],
                 selected: [255, 146, 43, 255],
                 section: [140, 171, 255, 255],
+                convex: [44, 196, 196, 255],
+                concave: [196, 132, 250, 255],
+                corner: [16, 130, 142, 255],
+                lost: [255, 92, 112, 255],
                 handle: [255, 255, 255, 255],
                 axes: [[255, 107, 107, 255], [105, 219, 124, 255], [116, 162, 255, 255]],
             },

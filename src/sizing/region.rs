@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Point;
+use super::overlap::Overlap;
+use crate::geometry::{Aabb, Point};
 
 /// Elements that overlap `shape` are refined until they reach `target`.
 ///
@@ -86,6 +87,11 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// The box around it.
+    pub fn bounds(&self) -> Aabb {
+        Overlap::new(self).bounds
+    }
+
     /// The name of the kind of shape, as JSON has it.
     pub fn kind(&self) -> &'static str {
         match self {

@@ -49,9 +49,11 @@ impl Extent {
     }
 }
 
-/// An object with the fields of `value`; those that are flattened into it would otherwise make it a Map.
+/// An object with the fields of `value`; those that are flattened into it would otherwise make it a Map. What is not there
+/// is null.
 pub(super) fn to_object(value: &impl Serialize) -> Result<JsValue, Failure> {
-    let serializer = serde_wasm_bindgen::Serializer::new().serialize_maps_as_objects(true);
+    let serializer =
+        serde_wasm_bindgen::Serializer::new().serialize_maps_as_objects(true).serialize_missing_as_null(true);
     Ok(value.serialize(&serializer)?)
 }
 
@@ -97,6 +99,7 @@ pub(super) fn check_ids(ids: &[u32], nodes: usize) -> Result<(), Failure> {
 }
 
 /// Refuses an array of what cells were made from that does not name one of the input's cells for each.
+#[cfg(any(feature = "quads", feature = "hexes"))]
 pub(super) fn check_parents(parent: &[u32], cells: usize, of_input: usize) -> Result<(), Failure> {
     if parent.len() == cells && parent.iter().all(|&p| (p as usize) < of_input) {
         return Ok(());

@@ -5,10 +5,13 @@ use std::fmt::Display;
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 
+use crate::hexing::HexingError;
+use crate::hexing::background::BackgroundError;
 use crate::io::{ReadError, WriteError};
 use crate::mesh::GridError;
 use crate::refine::RefineError;
 use crate::refine::hex::HexRefineError;
+use crate::solid::SolidError;
 
 /// Which class of error JavaScript is to throw.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -122,6 +125,28 @@ impl From<GridError> for Failure {
             GridError::Spacing(_) | GridError::Margin(_) => Kind::Options,
             GridError::Empty => Kind::Input,
             GridError::TooManyHexes { .. } | GridError::TooFewDigits { .. } => Kind::Limit,
+        };
+        Self::new(kind, error.code(), &error)
+    }
+}
+
+impl From<HexingError> for Failure {
+    fn from(error: HexingError) -> Self {
+        let kind = match error {
+            HexingError::Background(BackgroundError::Refine(error)) => return error.into(),
+            HexingError::Cancelled(_)
+            | HexingError::Solid(SolidError::Cancelled(_))
+            | HexingError::Background(BackgroundError::Cancelled(_)) => Kind::Cancelled,
+            HexingError::Option { .. }
+            | HexingError::NothingLeft { .. }
+            | HexingError::Solid(SolidError::Option { .. })
+            | HexingError::Background(
+                BackgroundError::EdgeLength(_) | BackgroundError::NoDirection | BackgroundError::Face(_),
+            ) => Kind::Options,
+            HexingError::Solid(_) | HexingError::Tangled(_) => Kind::Input,
+            HexingError::Background(
+                BackgroundError::TooManyHexes { .. } | BackgroundError::TooFewDigits { .. },
+            ) => Kind::Limit,
         };
         Self::new(kind, error.code(), &error)
     }

@@ -1,21 +1,19 @@
 //! Refinement of hexes in one call, what it will do, and the hex mesh that it makes.
 
-use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
+use js_sys::{Uint8Array, Uint32Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use super::convert::{cells, check_parents, points, to_object};
+use super::convert::{check_parents, to_object};
 use super::errors::Failure;
 use super::file::format_named;
+use super::hex_arrays::{HexArrays, boundary_groups, hex_mesh, pairs};
 use super::hex_mesh::HexMesh;
 use super::listener::Listener;
 use super::memory::{Affordable, Cost, Limited};
 use super::pool::on_pool;
-use crate::geometry::Point;
 use crate::io::{self, Document};
-use crate::mesh::check::{check_hexes, summary};
-use crate::mesh::quality::hex_quality;
-use crate::mesh::{BoundaryGroups, FaceId, NodeId, Tags, mesh_hash};
+use crate::mesh::{BoundaryGroups, FaceId, Tags};
 use crate::refine::hex::{
     Added, HexForecast, HexOptions, HexPlan, HexRefineError, RefinedHexes, StageForecast, refine_hexes,
 };
@@ -47,14 +45,9 @@ pub struct Hexes {
 
 #[wasm_bindgen]
 impl Hexes {
-    /// x, y, z of each node.
-    pub fn nodes(&self) -> Float64Array {
-        bytemuck::cast_slice::<Point, f64>(&self.refined.mesh.positions).into()
-    }
-
-    /// The eight nodes of each hex.
-    pub fn hexes(&self) -> Uint32Array {
-        bytemuck::cast_slice::<[NodeId; 8], u32>(&self.refined.mesh.hexes).into()
+    /// Gives the mesh away. The boundary faces that are in [`groups`](Self::groups) are to be asked for before.
+    pub fn arrays(&mut self) -> HexArrays {
+        std::mem::take(&mut self.refined.mesh).into()
     }
 
     /// The refinement level of each hex.
@@ -70,8 +63,7 @@ impl Hexes {
     /// The boundary faces that are in groups: two numbers for each, 6 times its hex and its number there, and which of
     /// the input's groups it is in.
     pub fn groups(&self) -> Uint32Array {
-        let pairs: Vec<u32> = self.refined.mesh.groups.labels().flat_map(|(side, set)| [side, set]).collect();
-        pairs.as_slice().into()
+        pairs(self.refined.mesh.groups.labels())
     }
 
     /// Elements that are larger than asked for, because the deepest level allowed was reached.
@@ -99,26 +91,6 @@ impl Hexes {
     /// None in practice: numbers can always be converted.
     pub fn stages(&self) -> Result<JsValue, Failure> {
         to_object(&self.refined.stages)
-    }
-
-    /// The fingerprint of nodes and hexes.
-    pub fn hash(&self) -> String {
-        let mesh = &self.refined.mesh;
-        on_pool(|| mesh_hash(&mesh.positions, &mesh.hexes)).to_string()
-    }
-
-    /// How well shaped the hexes are: an object with the fields of `HexQuality` in `www/lib/results.ts`.
-    ///
-    /// # Errors
-    /// None in practice: numbers can always be converted.
-    pub fn quality(&self) -> Result<JsValue, Failure> {
-        to_object(&on_pool(|| hex_quality(&self.refined.mesh).report()))
-    }
-
-    /// What is wrong with the mesh: one line for each kind of defect.
-    pub fn defects(&self) -> Vec<String> {
-        let defects = on_pool(|| check_hexes(&self.refined.mesh));
-        summary(&defects).iter().map(ToString::to_string).collect()
     }
 }
 
@@ -189,52 +161,13 @@ pub fn export(
 ) -> Result<Uint8Array, Failure> {
     let format = format_named(format)?;
     let mut mesh = hex_mesh(nodes, hexes)?;
-    mesh.groups = boundary_groups(groups, mesh.hexes.len(), input.mesh.groups.tags())?;
+    mesh.groups = boundary_groups(groups, mesh.hexes.len(), |faces| {
+        let (sides, of_element) = faces.into_iter().unzip();
+        BoundaryGroups::new(sides, Tags { sets: input.mesh.groups.tags().sets.clone(), of_element })
+    })?;
     check_parents(parent, mesh.hexes.len(), input.mesh.hexes.len())?;
     let tags = input.mesh.tags.inherited(parent);
     let parent = parent.iter().copied().map(FaceId).collect();
     let document = Document { tags, level, parent, ..Document::from(mesh) };
     Ok(on_pool(|| io::write(&document, format))?.as_slice().into())
-}
-
-/// The groups that [`Hexes::groups`] told.
-fn boundary_groups(pairs: &[u32], hexes: usize, tags: &Tags) -> Result<BoundaryGroups, Failure> {
-    let (pairs, rest) = pairs.as_chunks::<2>();
-    if pairs.is_empty() && rest.is_empty() {
-        return Ok(BoundaryGroups::default());
-    }
-    let (sides, of_element): (Vec<u32>, Vec<u32>) = pairs.iter().map(|&[side, set]| (side, set)).unzip();
-    let is_in_range = sides.last().is_none_or(|&last| (last as usize) < 6 * hexes);
-    let groups = BoundaryGroups::new(sides, Tags { sets: tags.sets.clone(), of_element });
-    let message = "the groups of boundary faces are not those of the mesh";
-    groups
-        .filter(|_| is_in_range && rest.is_empty())
-        .ok_or_else(|| Failure::input("groups-invalid", &message))
-}
-
-/// A measure of each hex, by its name in `HexQuality`.
-///
-/// # Errors
-/// If the arrays do not fit together or there is no such measure.
-#[wasm_bindgen(js_name = hexQuality)]
-pub fn quality(nodes: Vec<f64>, hexes: Vec<u32>, metric: &str) -> Result<Float32Array, Failure> {
-    let mesh = hex_mesh(nodes, hexes)?;
-    let quality = on_pool(|| hex_quality(&mesh));
-    let values = match metric {
-        "scaledJacobian" => quality.scaled_jacobian,
-        "aspect" => quality.aspect,
-        "volume" => quality.volume,
-        _ => {
-            let message = format!("there is no measure {metric:?}; give scaledJacobian, aspect or volume");
-            return Err(Failure::options("metric-unknown", &message));
-        }
-    };
-    Ok(values.as_slice().into())
-}
-
-/// The mesh of these arrays, in their own memory.
-fn hex_mesh(nodes: Vec<f64>, hexes: Vec<u32>) -> Result<crate::mesh::HexMesh, Failure> {
-    let positions = points(nodes)?;
-    let hexes = cells(hexes, positions.len(), "hexes")?;
-    Ok(crate::mesh::HexMesh { positions, hexes, ..Default::default() })
 }

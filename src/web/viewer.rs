@@ -6,12 +6,14 @@ use glam::DVec2;
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
+use super::drawn_features::DrawnFeature;
 use super::drawn_region::{DrawnRegion, DrawnSection};
 use crate::{
+    geometry::{Aabb, Point},
     render::Renderer,
     scene::{
-        Axis, Background, Camera, ColourMap, Handle, Palette, Projection, Scene, Style, Surface, Up,
-        Viewport, colour_index,
+        Axis, Background, Camera, ColourMap, FeatureLine, Handle, Palette, Projection, Scene, Style, Surface,
+        Up, Viewport, colour_index,
     },
     sizing::Shape,
 };
@@ -205,6 +207,15 @@ impl Viewer {
         Ok(())
     }
 
+    /// Draws the features of a solid, or none: see [`DrawnFeature`].
+    #[wasm_bindgen(js_name = setFeatures)]
+    pub fn set_features(&mut self, features: JsValue) -> Result<(), JsError> {
+        let features: Vec<DrawnFeature> = serde_wasm_bindgen::from_value(features)?;
+        self.scene.set_features(features.into_iter().map(FeatureLine::from).collect());
+        self.renderer.regions_changed();
+        Ok(())
+    }
+
     /// The index of the nearest region under a pixel.
     #[wasm_bindgen(js_name = regionAt)]
     pub fn region_at(&self, x: f64, y: f64) -> Option<u32> {
@@ -322,6 +333,19 @@ impl Viewer {
         {
             self.fly_to(camera);
         }
+    }
+
+    /// Prepares a flight to a box, from its least x, y, z to its greatest, and what is around it.
+    #[wasm_bindgen(js_name = flyToBox)]
+    pub fn fly_to_box(&mut self, ends: &[f64]) -> Result<(), JsError> {
+        let (min, max) = ends
+            .split_at_checked(3)
+            .filter(|(_, max)| max.len() == 3)
+            .ok_or_else(|| error("a box has six numbers"))?;
+        self.fly_to(
+            self.scene.framed_box(&Aabb { min: Point::from_slice(min), max: Point::from_slice(max) }),
+        );
+        Ok(())
     }
 
     /// Prepares a flight to where everything is seen along an axis: `+x` to `-z`, or `iso`.

@@ -4,9 +4,12 @@
 mod cases;
 #[path = "../fixtures/hex_cases.rs"]
 mod hex_cases;
+#[path = "../fixtures/solid_cases.rs"]
+mod solid_cases;
 
 use cases::cases;
 use hex_cases::hex_cases;
+use solid_cases::solid_cases;
 
 #[test]
 fn results_are_those_of_the_fixture_on_any_number_of_threads() {
@@ -17,6 +20,10 @@ fn results_are_those_of_the_fixture_on_any_number_of_threads() {
             assert_eq!(outcome, case.expected, "{} on {threads} threads", case.name);
         }
         for case in hex_cases() {
+            let outcome = pool.install(|| case.run());
+            assert_eq!(outcome, case.expected, "{} on {threads} threads", case.name);
+        }
+        for case in solid_cases() {
             let outcome = pool.install(|| case.run());
             assert_eq!(outcome, case.expected, "{} on {threads} threads", case.name);
         }

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 
-import { cases, hexCases } from '../fixtures/cases.js';
+import { cases, hexCases, solidCases } from '../fixtures/cases.js';
 
 const run = promisify(execFile);
 
@@ -32,7 +32,7 @@ export async function installPacked(name: string): Promise<Project> {
   if (!packed) throw new Error('npm pack made no tarball');
   cpSync(join(ROOT, 'tests', 'package', 'fixtures'), folder, { recursive: true });
   writeFileSync(join(folder, 'package.json'), '{ "name": "scratch", "private": true, "type": "module" }\n');
-  writeFileSync(join(folder, CASES), JSON.stringify({ quads: cases(), hexes: hexCases() }));
+  writeFileSync(join(folder, CASES), JSON.stringify({ quads: cases(), hexes: hexCases(), solids: solidCases() }));
   // The package has no dependencies: there is nothing to download.
   await run('npm', ['install', '--offline', '--no-audit', '--no-fund', `./${packed}`], { cwd: folder });
   return { folder, tarball: join(folder, packed) };

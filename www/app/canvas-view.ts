@@ -4,7 +4,7 @@ import type { Viewer } from '../wasm/viewer/viewer.js';
 import { Motion } from './motion.js';
 import { type Actions, listenForGestures } from './view-gestures.js';
 import { messageOf, ViewError } from './view-types.js';
-import type { Colouring, Direction, DragPhase, DrawHexes, DrawMesh, FaceHit, Section, Style, Vector, View, ViewRegion } from './view-types.js';
+import type { Colouring, Direction, DragPhase, DrawHexes, DrawMesh, FaceHit, Section, Style, Vector, View, ViewFeature, ViewRegion } from './view-types.js';
 
 export type Module = typeof import('../wasm/viewer/viewer.js');
 
@@ -23,7 +23,7 @@ const DEFAULT_STYLE: Style = {
   covered: [0, 0],
 };
 /** What is shown. */
-type Told = 'style' | 'box' | 'regions' | 'mesh' | OfMesh;
+type Told = 'style' | 'box' | 'features' | 'regions' | 'mesh' | OfMesh;
 /** What is told of one mesh, and forgotten with it. */
 const OF_MESH = ['colouring', 'section', 'peel', 'filter', 'mark'] as const;
 type OfMesh = (typeof OF_MESH)[number];
@@ -160,6 +160,10 @@ export class CanvasView implements View {
     this.#tell('mark', (viewer) => viewer.mark(cell ?? undefined));
   }
 
+  setFeatures(features: ViewFeature[]): void {
+    this.#tell('features', (viewer) => viewer.setFeatures(features));
+  }
+
   setBox(box: { min: Vector; max: Vector } | null): void {
     this.#tell('box', (viewer) => viewer.setBox(box ? new Float64Array([...box.min, ...box.max]) : undefined));
   }
@@ -205,6 +209,10 @@ export class CanvasView implements View {
 
   frameFace(face: number): void {
     this.#fly((viewer) => viewer.flyToFace(face));
+  }
+
+  frameBox({ min, max }: { min: Vector; max: Vector }): void {
+    this.#fly((viewer) => viewer.flyToBox(new Float64Array([...min, ...max])));
   }
 
   lookAlong(axis: Direction): void {

@@ -29,6 +29,9 @@ export type ViewRegion =
   | { kind: 'sphere'; center: Vector; radius: number }
   | { kind: 'cylinder'; from: Vector; to: Vector; radius: number };
 
+/** A curve of a solid, a corner (one point), or one of these that a mesh does not show. World coordinates. */
+export type ViewFeature = { kind: 'convex' | 'concave' | 'corner' | 'lost'; points: Vector[] };
+
 export type Style = {
   edges: boolean;
   /** In CSS pixels. */
@@ -66,6 +69,8 @@ export interface View {
   setFilter(filter: { values: Float32Array; range: [number, number] } | null): void;
   /** Outlines a cell of the hex mesh over all else, or none. */
   mark(cell: number | null): void;
+  /** Draws the features of a solid as lines and points, faint where something stands before them. */
+  setFeatures(features: ViewFeature[]): void;
   /** Draws the edges of a box, or none. */
   setBox(box: { min: Vector; max: Vector } | null): void;
   /** The direction in which the camera looks. */
@@ -82,6 +87,8 @@ export interface View {
   frameAll(): void;
   /** Flies to a face, or to a cell of the hex mesh. */
   frameFace(face: number): void;
+  /** Flies to a box. */
+  frameBox(box: { min: Vector; max: Vector }): void;
   /** Turns the camera to look along an axis: '-z' is the view from above. */
   lookAlong(axis: Direction): void;
   /** The handles of the selected region, in CSS pixels from the canvas's upper left corner. */

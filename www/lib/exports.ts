@@ -4,7 +4,7 @@ export { CancelledError, HexmillError, InputError, InternalError, LimitError, Op
 export { MOST_HEXES } from './hex-options.js';
 export type { GridOptions, HexOptions, Method, RefineHexesOptions } from './hex-options.js';
 export { HexMesh, Surface } from './loaded.js';
-export { QuadMesh, RefinedHexes } from './made.js';
+export { HexedSolid, QuadMesh, RefinedHexes } from './made.js';
 export type { Mesher } from './mesher.js';
 export { MOST_QUADS } from './options.js';
 export type {
@@ -43,5 +43,22 @@ export type {
   QualitySummary,
   SurfaceInfo,
 } from './results.js';
+export { MOST_HEXES_OF_SOLIDS } from './solid-options.js';
+export type { Background, MeshSolidOptions, PlanSolidOptions, SolidOptions } from './solid-options.js';
+export type {
+  BodyReport,
+  Captured,
+  DistanceSummary,
+  FeatureReport,
+  FoundSolid,
+  LostFeature,
+  SolidAttempt,
+  SolidCurve,
+  SolidPlan,
+  SolidReport,
+  SolidResult,
+  SolidSurface,
+  SurfaceDistances,
+} from './solid-results.js';
 export { MOST_THREADS } from './start.js';
 export type { MesherOptions } from './start.js';

@@ -2,17 +2,17 @@
 
 import type { Engine, InputRecord } from './engine.js';
 import { InputError } from './errors.js';
-import type { HexMesh, Surface } from './loaded.js';
 import type { CallOptions, HexFormat, OutputFormat } from './options.js';
-import type { HexArraysMade, HexData, QuadArrays, QuadData } from './protocol.js';
+import type { HexArraysMade, HexData, HexedSolidData, MadeData, MadeHexData, QuadArrays, QuadData, SolidArrays } from './protocol.js';
 import type { AddedHexes, HexMetric, HexQuality, HexStage, MeshQuality, Metric } from './results.js';
+import type { SolidReport, SolidResult } from './solid-results.js';
 
 /** Where a mesh was made, and from what. */
-interface Origin {
+export interface Origin {
   engine: Engine;
   input: InputRecord;
-  /** The input if it was loaded for this mesh alone. */
-  own: Surface | HexMesh | null;
+  /** The input if it is there for this mesh alone. */
+  own: { dispose(): void } | null;
 }
 
 /** A mesh that a mesher has made. */
@@ -21,18 +21,15 @@ abstract class Made {
   protected readonly origin: Origin;
   /** x, y, z of each node. */
   readonly nodes: Float64Array;
-  /** Elements that are larger than asked for, because `maxLevels` was reached. */
-  readonly capped: number;
   /** A fingerprint of nodes and cells: the same for the same input and options on every platform. */
   readonly hash: string;
   /** What is wrong with the mesh, in words: empty for every mesh of a sound input. */
   readonly defects: readonly string[];
 
   /** @internal */
-  constructor(origin: Origin, data: { nodes: Float64Array; capped: number; hash: string; defects: string[] }) {
+  constructor(origin: Origin, data: MadeData) {
     this.origin = origin;
     this.nodes = data.nodes;
-    this.capped = data.capped;
     this.hash = data.hash;
     this.defects = data.defects;
   }
@@ -62,6 +59,8 @@ export class QuadMesh extends Made {
   readonly level: Uint8Array;
   /** The input face that each quad is part of. */
   readonly parent: Uint32Array;
+  /** Elements that are larger than asked for, because `maxLevels` was reached. */
+  readonly capped: number;
   /** How well shaped the quads are. */
   readonly quality: MeshQuality;
 
@@ -71,6 +70,7 @@ export class QuadMesh extends Made {
     this.quads = data.quads;
     this.level = data.level;
     this.parent = data.parent;
+    this.capped = data.capped;
     this.quality = data.quality;
   }
 
@@ -99,9 +99,29 @@ export class QuadMesh extends Made {
 }
 
 /** A conforming mesh of hexes. Each has a positive Jacobian, at its corners and inside. */
-export class RefinedHexes extends Made {
+abstract class MadeHexes extends Made {
   /** The eight nodes of each hex in the order of VTK_HEXAHEDRON. */
   readonly hexes: Uint32Array;
+  /** How well shaped the hexes are. */
+  readonly quality: HexQuality;
+
+  /** @internal */
+  constructor(origin: Origin, data: MadeHexData) {
+    super(origin, data);
+    this.hexes = data.hexes;
+    this.quality = data.quality;
+  }
+
+  /** A measure of each hex, for colouring. */
+  qualityOf(metric: HexMetric, options: CallOptions = {}): Promise<Float32Array> {
+    this.refuseDetached();
+    const { nodes, hexes } = this;
+    return this.origin.engine.run((desk) => desk.call('hexQuality', { mesh: { nodes, hexes }, metric }), options);
+  }
+}
+
+/** A conforming mesh of hexes that were refined. Each has a positive Jacobian, at its corners and inside. */
+export class RefinedHexes extends MadeHexes {
   /** The refinement level of each hex; a transition hex has that of the coarse hex that it is part of. */
   readonly level: Uint8Array;
   /** The input hex that each hex is part of. */
@@ -114,29 +134,23 @@ export class RefinedHexes extends Made {
   readonly groupedFaces: Uint32Array;
   /** Elements that were refined beyond those asked for, and why. */
   readonly added: AddedHexes;
+  /** Elements that are larger than asked for, because `maxLevels` was reached. */
+  readonly capped: number;
   /** What each stage did, coarse to fine. */
   readonly stages: readonly HexStage[];
   /** Hexes of the input that were numbered inside out, and were turned. */
   readonly turned: number;
-  /** How well shaped the hexes are. */
-  readonly quality: HexQuality;
 
   /** @internal */
   constructor(origin: Origin, data: HexData) {
     super(origin, data);
-    this.hexes = data.hexes;
     this.level = data.level;
     this.parent = data.parent;
     this.groupedFaces = data.groupedFaces;
     this.added = data.added;
+    this.capped = data.capped;
     this.stages = data.stages;
     this.turned = data.turned;
-    this.quality = data.quality;
-  }
-
-  /** A measure of each hex, for colouring. */
-  qualityOf(metric: HexMetric, options: CallOptions = {}): Promise<Float32Array> {
-    return this.origin.engine.run((desk) => desk.call('hexQuality', { mesh: this.#arrays(), metric }), options);
   }
 
   /**
@@ -155,5 +169,54 @@ export class RefinedHexes extends Made {
     this.refuseDetached();
     const { nodes, hexes, level, parent, groupedFaces } = this;
     return { nodes, hexes, level, parent, groupedFaces };
+  }
+}
+
+/** A conforming mesh of hexes that fill a solid. Each has a positive Jacobian, at its corners and inside. */
+export class HexedSolid extends MadeHexes {
+  /**
+   * All boundary faces, two numbers for each: 6 times its hex and its number there (see `groupedFaces` of
+   * {@link RefinedHexes}), and the surface of the solid that it stands for, by its place in `surfaces` of the plan. Files
+   * have them as groups: `surface-1` for the first.
+   */
+  readonly groupedFaces: Uint32Array;
+  /** The body of each hex, where the solid has several; else empty. Files have them as groups: `body-1` for the first. */
+  readonly bodies: Uint32Array;
+  /** What was done and what came of it, stage by stage. */
+  readonly report: SolidReport;
+
+  /** @internal */
+  constructor(origin: Origin, data: HexedSolidData) {
+    super(origin, data);
+    this.groupedFaces = data.groupedFaces;
+    this.bodies = data.bodies;
+    this.report = data.report;
+  }
+
+  /** What the mesh shows of the solid, and how near it is. */
+  get result(): SolidResult {
+    return this.report.result;
+  }
+
+  /** How far each hex is from the surface that was given, at its boundary faces, in model units; NaN for hexes without any. */
+  distances(options: CallOptions = {}): Promise<Float32Array> {
+    this.refuseDetached();
+    const { nodes, hexes } = this;
+    return this.origin.engine.run(async (desk) => {
+      const input = await desk.input(this.origin.input);
+      return desk.call('solidDistances', { input, mesh: { nodes, hexes } });
+    }, options);
+  }
+
+  /**
+   * The mesh as a file, with the solid's surfaces as groups of boundary faces.
+   *
+   * @throws {@link OptionsError} if there is no such format, or it holds no hexes.
+   */
+  export(format: HexFormat, options: CallOptions = {}): Promise<Uint8Array> {
+    this.refuseDetached();
+    const { nodes, hexes, groupedFaces, bodies } = this;
+    const mesh: SolidArrays = { nodes, hexes, groupedFaces, bodies };
+    return this.origin.engine.run((desk) => desk.call('exportSolid', { mesh, format }), options);
   }
 }

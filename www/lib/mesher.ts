@@ -1,13 +1,15 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import type { Crew } from './crew.js';
-import type { Desk, Engine, InputRecord } from './engine.js';
-import { CancelledError, HexmillError, InputError } from './errors.js';
+import type { Crews } from './crews.js';
+import type { Desk, InputRecord } from './engine.js';
+import { HexmillError, InputError } from './errors.js';
 import { plainGrid, plainHexOptions } from './hex-options.js';
 import type { GridOptions, HexOptions, RefineHexesOptions } from './hex-options.js';
 import { refuseUnknown } from './known.js';
 import { HexMesh, Surface } from './loaded.js';
 import type { Held } from './loaded.js';
-import { QuadMesh, RefinedHexes } from './made.js';
+import { HexedSolid, QuadMesh, RefinedHexes } from './made.js';
+import type { Origin } from './made.js';
 import { plainOptions } from './options.js';
 import type {
   Bounds,
@@ -22,28 +24,27 @@ import type {
 } from './options.js';
 import type { Candidates, HexMeshData, Source, SurfaceData } from './protocol.js';
 import type { Estimate, HexPlan } from './results.js';
+import { plainSolidOptions } from './solid-options.js';
+import type { MeshSolidOptions, PlanSolidOptions } from './solid-options.js';
+import type { SolidPlan } from './solid-results.js';
 import { hexSource, surfaceSource } from './source.js';
 
 /**
- * Meshes surfaces and refines hexes in workers. Calls are done one after the other, in the order in which they were
- * made. Surfaces and hexes have workers of their own, those of hexes started when they are first asked for; so have
- * estimates and plans, which neither wait for a mesh nor hold it up.
+ * Meshes surfaces, refines hexes and fills solids with hexes in workers. Calls are done one after the other, in the order
+ * in which they were made. Surfaces, hexes and solids have workers of their own, those of hexes and of solids started when
+ * they are first asked for; so have estimates and plans, which neither wait for a mesh nor hold it up.
  */
 export class Mesher {
   /** Threads that compute. */
   readonly threads: number;
-  readonly #surfaces: Crew;
-  readonly #startHexes: () => Promise<Crew>;
-  #hexes: Promise<Crew> | null = null;
-  #end: HexmillError | null = null;
+  readonly #crews: Crews;
   /** Frees an input in the workers when neither it nor a mesh made from it can be reached any more. */
   readonly #unreachable = new FinalizationRegistry<() => void>((free) => free());
   #inputs = 0;
 
   /** @internal */
-  constructor(surfaces: Crew, threads: number, startHexes: () => Promise<Crew>) {
-    this.#surfaces = surfaces;
-    this.#startHexes = startHexes;
+  constructor(crews: Crews, threads: number) {
+    this.#crews = crews;
     this.threads = threads;
   }
 
@@ -56,7 +57,8 @@ export class Mesher {
   async load(input: SurfaceInput, options: InputOptions & CallOptions = {}): Promise<Surface> {
     refuseUnknown(options, LOAD_OPTIONS, 'option');
     const source = await surfaceSource(input, options);
-    return this.#load(this.#surfaces, source, options, (held, data) => new Surface(held, data as SurfaceData));
+    const crew = await this.#crews.of('mesher', options.signal);
+    return this.#load(crew, source, options, (held, data) => new Surface(held, data as SurfaceData));
   }
 
   /**
@@ -117,7 +119,7 @@ export class Mesher {
     const plain = plainOptions(quadOptions, LOAD_OPTIONS);
     const source = input instanceof Surface ? input : await surfaceSource(input, { format, name });
     const work = (desk: Desk, id: number) => desk.call('estimate', { input: id, options: plain });
-    return this.#foretell(this.#surfaces, source, work, { signal, onProgress });
+    return this.#foretell(await this.#crews.of('mesher', signal), source, work, { signal, onProgress });
   }
 
   /**
@@ -131,7 +133,22 @@ export class Mesher {
     const plain = plainHexOptions(hexOptions, LOAD_OPTIONS);
     const source = input instanceof HexMesh ? input : await hexSource(input, { format, name });
     const work = (desk: Desk, id: number) => desk.call('planHexes', { input: id, options: plain });
-    return this.#foretell(await this.#hexCrew(signal), source, work, { signal, onProgress });
+    return this.#foretell(await this.#crews.of('hexes', signal), source, work, { signal, onProgress });
+  }
+
+  /**
+   * Tells of the solid in a closed surface, before the work and beside it, as {@link Mesher.estimateQuads}: its corners,
+   * curves and surfaces, what had to be mended, and about how many hexes will fill it.
+   *
+   * @throws {@link InputError} if the surface bounds no solid, with the place; {@link OptionsError} if an option cannot be
+   * met.
+   */
+  async planSolid(input: Surface | SurfaceInput, options: PlanSolidOptions & InputOptions = {}): Promise<SolidPlan> {
+    const { signal, onProgress, format, name, ...solidOptions } = options;
+    const plain = plainSolidOptions(solidOptions, LOAD_OPTIONS);
+    const source = input instanceof Surface ? input : await surfaceSource(input, { format, name });
+    const work = (desk: Desk, id: number) => desk.call('planSolid', { input: id, options: plain });
+    return this.#foretell(await this.#crews.of('solids', signal), source, work, { signal, onProgress });
   }
 
   /**
@@ -151,7 +168,7 @@ export class Mesher {
       await chooseSizes(desk, await desk.call('begin', { input: id, options: plain }), sizeFunction);
       return desk.call('finish', {});
     };
-    return this.#refine(this.#surfaces, surface, own, work, QuadMesh, { signal, onProgress });
+    return this.#make(await this.#crews.of('mesher', signal), surface.record(this), own, work, QuadMesh, { signal, onProgress });
   }
 
   /**
@@ -171,15 +188,28 @@ export class Mesher {
       await chooseSizes(desk, await desk.call('beginHexes', { input: id, options: plain }), sizeFunction);
       return desk.call('finishHexes', {});
     };
-    return this.#refine(await this.#hexCrew(signal), mesh, own, work, RefinedHexes, { signal, onProgress });
+    return this.#make(await this.#crews.of('hexes', signal), mesh.record(this), own, work, RefinedHexes, { signal, onProgress });
+  }
+
+  /**
+   * Fills the solid in a closed surface with hexes: a conforming mesh whose boundary keeps the solid's corners, curves and
+   * surfaces, without inverted hexes. What of the solid the mesh does not show is told in its `report`.
+   *
+   * @throws {@link InputError} if the surface bounds no solid, with the place, {@link OptionsError} if an option cannot be
+   * met, {@link LimitError} if there would be more hexes than `maxHexes` or than memory holds, {@link CancelledError} once
+   * `signal` is aborted.
+   */
+  async meshSolid(input: Surface | SurfaceInput, options: MeshSolidOptions & InputOptions): Promise<HexedSolid> {
+    const { signal, onProgress, format, name, ...solidOptions } = options;
+    const plain = plainSolidOptions(solidOptions, LOAD_OPTIONS);
+    const { record, own } = input instanceof Surface ? { record: input.record(this), own: null } : this.#keep(await surfaceSource(input, { format, name }));
+    const work = (desk: Desk, id: number) => desk.call('meshSolid', { input: id, options: plain });
+    return this.#make(await this.#crews.of('solids', signal), record, own, work, HexedSolid, { signal, onProgress });
   }
 
   /** Ends the workers. What is pending is rejected with a `HexmillError` of code `terminated`, as is what follows. */
   terminate(): void {
-    this.#end ??= new HexmillError('terminated', 'The mesher was terminated.');
-    this.#surfaces.terminate(this.#end);
-    const end = this.#end;
-    this.#hexes?.then((crew) => crew.terminate(end), () => {});
+    this.#crews.terminate(new HexmillError('terminated', 'The mesher was terminated.'));
   }
 
   /** The same as {@link Mesher.terminate}, for `using`. */
@@ -187,18 +217,8 @@ export class Mesher {
     this.terminate();
   }
 
-  /** The workers of hexes, started by the first who asks. */
-  async #hexCrew(signal?: AbortSignal): Promise<Crew> {
-    if (this.#end) throw this.#end;
-    this.#hexes ??= this.#startHexes().catch((error) => {
-      this.#hexes = null;
-      throw error;
-    });
-    return unlessAborted(this.#hexes, signal);
-  }
-
   async #loadHexes(source: Source, options: CallOptions): Promise<HexMesh> {
-    const crew = await this.#hexCrew(options.signal);
+    const crew = await this.#crews.of('hexes', options.signal);
     return this.#load(crew, source, options, (held, data) => new HexMesh(held, data as HexMeshData));
   }
 
@@ -209,16 +229,22 @@ export class Mesher {
     { signal, onProgress }: CallOptions,
     handleOf: (held: Held, data: SurfaceData | HexMeshData) => L,
   ): Promise<L> {
-    const record = { id: ++this.#inputs, source };
-    const free = freeing(crew, record.id);
+    const { record, own } = this.#keep(source);
     try {
       const data = await crew.engine.run((desk) => desk.load(record), { signal, onProgress });
-      this.#unreachable.register(record, free);
-      return handleOf({ mesher: this, record, free }, data);
+      return handleOf({ mesher: this, record, free: own.dispose }, data);
     } catch (error) {
-      free();
+      own.dispose();
       throw error;
     }
+  }
+
+  /** Numbers a source, and frees in the workers what they load of it when it is disposed of or unreachable. */
+  #keep(source: Source): { record: InputRecord; own: { dispose(): void } } {
+    const record = { id: ++this.#inputs, source };
+    const dispose = freeing(this.#crews, record.id);
+    this.#unreachable.register(record, dispose);
+    return { record, own: { dispose } };
   }
 
   /** Does `work` in the worker of estimates. */
@@ -238,16 +264,15 @@ export class Mesher {
     }
   }
 
-  /** Does `work` on what was loaded; `own` is that too if it was loaded for this work alone. */
-  async #refine<D, M>(
+  /** Does `work` on an input; `own` is that too if it is there for this work alone. */
+  async #make<D, M>(
     { engine }: Crew,
-    loaded: Surface | HexMesh,
-    own: Surface | HexMesh | null,
+    input: InputRecord,
+    own: Origin['own'],
     work: (desk: Desk, input: number) => Promise<D>,
-    Result: new (origin: { engine: Engine; input: InputRecord; own: Surface | HexMesh | null }, data: D) => M,
+    Result: new (origin: Origin, data: D) => M,
     options: CallOptions,
   ): Promise<M> {
-    const input = loaded.record(this);
     try {
       const data = await engine.run(async (desk) => work(desk, await desk.input(input)), options);
       return new Result({ engine, input, own }, data);
@@ -274,19 +299,8 @@ export class Mesher {
 const LOAD_OPTIONS: readonly (keyof (InputOptions & CallOptions))[] = ['format', 'name', 'signal', 'onProgress'];
 
 /** Frees an input. Made apart from its record, which would never be unreachable if this closure had it in scope. */
-function freeing(crew: Crew, input: number): () => void {
-  return () => crew.drop(input);
-}
-
-/** What `promise` gives, unless the signal is aborted before. */
-function unlessAborted<T>(promise: Promise<T>, signal: AbortSignal | undefined): Promise<T> {
-  if (!signal) return promise;
-  return new Promise((resolve, reject) => {
-    const abort = () => reject(new CancelledError());
-    if (signal.aborted) abort();
-    signal.addEventListener('abort', abort, { once: true });
-    promise.then(resolve, reject).finally(() => signal.removeEventListener('abort', abort));
-  });
+function freeing(crews: Crews, input: number): () => void {
+  return () => crews.drop(input);
 }
 
 /** Refines a level at a time, asking `sizeFunction` before each, until it asks for nothing more. */

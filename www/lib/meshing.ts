@@ -2,16 +2,18 @@
 
 import type * as hexes from '../wasm/hexes/hexes.js';
 import type * as mesher from '../wasm/mesher/mesher.js';
+import type * as solids from '../wasm/solids/solids.js';
 import type {
   Call,
   CallName,
   Calls,
   Candidates,
   FileData,
-  HexArraysMade,
   HexData,
+  HexedSolidData,
   HexMeshData,
   HexSource,
+  MadeHexData,
   QuadArrays,
   QuadData,
   Source,
@@ -19,9 +21,10 @@ import type {
   SurfaceSource,
 } from './protocol.js';
 
-/** The bindings of the module of surfaces and of that of hexes: a worker has one of them. */
+/** The bindings of the modules: a worker has those of one of them. */
 export type Bindings = Pick<typeof mesher, 'Surface' | 'Refinement' | 'refineQuads' | 'estimateQuads' | 'exportQuads' | 'quadQuality'> &
-  Pick<typeof hexes, 'HexMesh' | 'HexRefinement' | 'refineHexes' | 'planHexes' | 'exportHexes' | 'hexQuality'>;
+  Pick<typeof hexes, 'HexMesh' | 'HexRefinement' | 'refineHexes' | 'planHexes' | 'exportHexes' | 'hexQuality'> &
+  Pick<typeof solids, 'planSolid' | 'meshSolid' | 'exportSolid' | 'solidDistances'>;
 
 /** What a call gives and which of its buffers may move to the calling thread. */
 interface Answer<Result> {
@@ -121,6 +124,19 @@ export class Meshing {
       const result = this.#bindings.hexQuality(mesh.nodes, mesh.hexes, metric);
       return { result, transfer: [result.buffer] };
     },
+    planSolid: ({ input, options }) => ({
+      result: this.#bindings.planSolid(this.#solid(input), options),
+      transfer: [],
+    }),
+    meshSolid: ({ input, options }) => solidData(this.#bindings.meshSolid(this.#solid(input), options)),
+    exportSolid: ({ mesh, format }) => {
+      const result = this.#bindings.exportSolid(mesh.nodes, mesh.hexes, mesh.groupedFaces, mesh.bodies, format);
+      return { result, transfer: [result.buffer] };
+    },
+    solidDistances: ({ input, mesh }) => {
+      const result = this.#bindings.solidDistances(this.#solid(input), mesh.nodes, mesh.hexes);
+      return { result, transfer: [result.buffer] };
+    },
   };
 
   /** Loads an input in the place of the one of that number, if there is one. */
@@ -146,6 +162,11 @@ export class Meshing {
     const loaded = this.#surfaces.get(input);
     if (!loaded) throw new Error(`surface ${input} is not loaded`);
     return loaded;
+  }
+
+  /** A surface, as the module of solids has the class: made from the same Rust as that of the module of surfaces. */
+  #solid(input: number): solids.Surface {
+    return this.#surface(input) as unknown as solids.Surface;
   }
 
   #hexes(input: number): hexes.HexMesh {
@@ -187,9 +208,9 @@ function candidates(refinement: mesher.Refinement | hexes.HexRefinement): Answer
 
 function quadData(refined: mesher.Quads): Answer<QuadData> {
   try {
-    const { nodes, level, parent } = arraysOf(refined);
-    const arrays: QuadArrays = { nodes, quads: refined.quads(), level, parent };
-    return { result: { ...arrays, ...factsOf(refined) }, transfer: buffersOf({ ...arrays }) };
+    const arrays: QuadArrays = { nodes: refined.nodes(), quads: refined.quads(), level: refined.level(), parent: refined.parent() };
+    const result: QuadData = { ...arrays, hash: refined.hash(), quality: refined.quality(), defects: refined.defects(), capped: refined.capped() };
+    return { result, transfer: buffersOf({ ...arrays }) };
   } finally {
     refined.free();
   }
@@ -197,32 +218,33 @@ function quadData(refined: mesher.Quads): Answer<QuadData> {
 
 function hexData(refined: hexes.Hexes): Answer<HexData> {
   try {
-    const { nodes, level, parent } = arraysOf(refined);
-    const arrays: HexArraysMade = { nodes, hexes: refined.hexes(), level, parent, groupedFaces: refined.groups() };
-    const result: HexData = {
-      ...arrays,
-      ...factsOf(refined),
-      added: refined.added(),
-      stages: refined.stages(),
-      turned: refined.turned(),
-    };
-    return { result, transfer: buffersOf({ ...arrays }) };
+    const arrays = { level: refined.level(), parent: refined.parent(), groupedFaces: refined.groups() };
+    const told = { capped: refined.capped(), added: refined.added(), stages: refined.stages(), turned: refined.turned() };
+    return withMesh(refined.arrays(), arrays, told);
   } finally {
     refined.free();
   }
 }
 
-function arraysOf(refined: mesher.Quads | hexes.Hexes) {
-  return { nodes: refined.nodes(), level: refined.level(), parent: refined.parent() };
+function solidData(hexed: solids.HexedSolid): Answer<HexedSolidData> {
+  try {
+    const arrays = { groupedFaces: hexed.sides(), bodies: hexed.bodies() };
+    const told = { report: hexed.report() };
+    return withMesh(hexed.arrays(), arrays, told);
+  } finally {
+    hexed.free();
+  }
 }
 
-function factsOf(refined: mesher.Quads | hexes.Hexes) {
-  return {
-    capped: refined.capped(),
-    hash: refined.hash(),
-    quality: refined.quality(),
-    defects: refined.defects(),
-  };
+/** A hex mesh with what else is known of it: as arrays, and as told. */
+function withMesh<A extends Record<string, ArrayBufferView>, T>(mesh: hexes.HexArrays | solids.HexArrays, arrays: A, told: T): Answer<MadeHexData & A & T> {
+  try {
+    const all = { nodes: mesh.nodes(), hexes: mesh.hexes(), ...arrays };
+    const result = { ...all, hash: mesh.hash(), quality: mesh.quality(), defects: mesh.defects(), ...told };
+    return { result, transfer: buffersOf(all) };
+  } finally {
+    mesh.free();
+  }
 }
 
 function buffersOf(arrays: Record<string, ArrayBufferView>): ArrayBufferLike[] {

@@ -14,6 +14,8 @@ const MODULES: Readonly<Record<WasmFile, () => URL>> = {
   'mesher-threads.wasm': () => new URL('../wasm/mesher-threads/mesher-threads.wasm', import.meta.url),
   'hexes.wasm': () => new URL('../wasm/hexes/hexes.wasm', import.meta.url),
   'hexes-threads.wasm': () => new URL('../wasm/hexes-threads/hexes-threads.wasm', import.meta.url),
+  'solids.wasm': () => new URL('../wasm/solids/solids.wasm', import.meta.url),
+  'solids-threads.wasm': () => new URL('../wasm/solids-threads/solids-threads.wasm', import.meta.url),
 };
 
 const node: Platform = {

@@ -1,7 +1,7 @@
 import type { FromWorker, ToWorker } from './protocol.js';
 
-/** What a module does: mesh surfaces, or refine hexes. */
-export type ModuleName = 'mesher' | 'hexes';
+/** What a module does: mesh surfaces, refine hexes, or fill solids with hexes. */
+export type ModuleName = 'mesher' | 'hexes' | 'solids';
 
 /** The modules' files: on one thread, and on a pool of workers. */
 export type WasmFile = `${ModuleName}.wasm` | `${ModuleName}-threads.wasm`;

@@ -4,6 +4,8 @@ import type { Failure } from './errors.js';
 import type { GridOptions, HexOptions } from './hex-options.js';
 import type { Bounds, HexArrays, HexFormat, InputFormat, OutputFormat, QuadOptions } from './options.js';
 import type { ModuleName } from './platform.js';
+import type { PlanSolidOptions, SolidOptions } from './solid-options.js';
+import type { SolidPlan, SolidReport } from './solid-results.js';
 import type { AddedHexes, Estimate, HexInfo, HexMetric, HexPlan, HexQuality, HexStage, MeshQuality, Metric, SurfaceInfo } from './results.js';
 
 /** A file; without a format its content tells it. */
@@ -44,30 +46,54 @@ export interface QuadArrays {
   parent: Uint32Array;
 }
 
-/** A refined mesh. */
-export interface QuadData extends QuadArrays {
-  capped: number;
+/** What is told of every mesh. */
+export interface MadeData {
+  nodes: Float64Array;
   hash: string;
-  quality: MeshQuality;
   defects: string[];
 }
 
-/** A refined hex mesh as arrays. */
-export interface HexArraysMade extends HexArrays {
-  level: Uint8Array;
-  parent: Uint32Array;
+/** A refined mesh. */
+export interface QuadData extends QuadArrays, MadeData {
+  capped: number;
+  quality: MeshQuality;
+}
+
+/** A hex mesh with boundary faces that belong to something, as arrays. */
+export interface GroupedHexArrays extends HexArrays {
   groupedFaces: Uint32Array;
 }
 
+/** A refined hex mesh as arrays. */
+export interface HexArraysMade extends GroupedHexArrays {
+  level: Uint8Array;
+  parent: Uint32Array;
+}
+
+/** What is told of every hex mesh that was made. */
+export interface MadeHexData extends HexArrays, MadeData {
+  nodes: Float64Array;
+  quality: HexQuality;
+}
+
 /** A refined hex mesh. */
-export interface HexData extends HexArraysMade {
+export interface HexData extends HexArraysMade, MadeHexData {
+  nodes: Float64Array;
   capped: number;
   added: AddedHexes;
   stages: HexStage[];
   turned: number;
-  hash: string;
-  quality: HexQuality;
-  defects: string[];
+}
+
+/** A mesh of a solid as arrays. */
+export interface SolidArrays extends GroupedHexArrays {
+  bodies: Uint32Array;
+}
+
+/** A mesh of a solid. */
+export interface HexedSolidData extends SolidArrays, MadeHexData {
+  nodes: Float64Array;
+  report: SolidReport;
 }
 
 /** The elements that a size function decides on. */
@@ -79,8 +105,9 @@ export interface Candidates {
 /**
  * The calls: what each takes and gives. `begin`, `advance` and `finish`, or `beginHexes`, `advance` and `finishHexes`,
  * are one refinement a level at a time; any other call ends it. The module of surfaces answers what stands above
- * `planHexes`, that of hexes the rest, `load`, `reload` and `advance`. `input` is the number that the calling thread gave a surface or hex mesh in `load`; `reload` tells
- * nothing of what is known already.
+ * `planHexes`, that of solids what stands from `planSolid` on, `reload` and `hexQuality`, that of hexes the rest, `load`,
+ * `reload` and `advance`. `input` is the number that the calling thread gave a surface or hex mesh; `reload` tells nothing
+ * of what is known already.
  */
 export interface Calls {
   load: { takes: { input: number; source: Source }; gives: SurfaceData | HexMeshData };
@@ -97,7 +124,11 @@ export interface Calls {
   finishHexes: { takes: object; gives: HexData };
   refineHexes: { takes: { input: number; options: HexOptions }; gives: HexData };
   exportHexes: { takes: { input: number; mesh: HexArraysMade; format: HexFormat }; gives: Uint8Array };
-  hexQuality: { takes: { mesh: HexArraysMade; metric: HexMetric }; gives: Float32Array };
+  hexQuality: { takes: { mesh: HexArrays; metric: HexMetric }; gives: Float32Array };
+  planSolid: { takes: { input: number; options: PlanSolidOptions }; gives: SolidPlan };
+  meshSolid: { takes: { input: number; options: SolidOptions }; gives: HexedSolidData };
+  exportSolid: { takes: { mesh: SolidArrays; format: HexFormat }; gives: Uint8Array };
+  solidDistances: { takes: { input: number; mesh: HexArrays }; gives: Float32Array };
 }
 
 /** The name of a call. */

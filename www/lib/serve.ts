@@ -4,6 +4,8 @@ import initHexesThreaded, * as hexesThreaded from '../wasm/hexes-threads/hexes-t
 import initHexes, * as hexes from '../wasm/hexes/hexes.js';
 import initMesherThreaded, * as mesherThreaded from '../wasm/mesher-threads/mesher-threads.js';
 import initMesher, * as mesher from '../wasm/mesher/mesher.js';
+import initSolidsThreaded, * as solidsThreaded from '../wasm/solids-threads/solids-threads.js';
+import initSolids, * as solids from '../wasm/solids/solids.js';
 import { failureOf } from './errors.js';
 import type { Failure } from './errors.js';
 import { Meshing } from './meshing.js';
@@ -26,6 +28,10 @@ const MODULES = {
   hexes: {
     single: { init: initHexes, bindings: hexes },
     threaded: { init: initHexesThreaded, bindings: hexesThreaded },
+  },
+  solids: {
+    single: { init: initSolids, bindings: solids },
+    threaded: { init: initSolidsThreaded, bindings: solidsThreaded },
   },
 } as const;
 
@@ -63,7 +69,7 @@ function wantsMemory(thrown: unknown): boolean {
 }
 
 /**
- * The bindings of both modules in one type: each is asked only for what it has. The classes of one thread and of a pool
+ * The bindings of all modules in one type: each is asked only for what it has. The classes of one thread and of a pool
  * differ in name alone, since both are made from the same Rust.
  */
 function asBindings(bindings: object): Bindings {

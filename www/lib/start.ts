@@ -1,6 +1,7 @@
 // Starts a mesher: chooses modules and the number of threads, and starts the workers.
 
 import { Crew } from './crew.js';
+import { Crews } from './crews.js';
 import { OptionsError } from './errors.js';
 import { refuseUnknown } from './known.js';
 import { Mesher } from './mesher.js';
@@ -16,8 +17,8 @@ export interface MesherOptions {
   threads?: number | undefined;
   /**
    * Where the WebAssembly modules are, if they are not beside this package's files: a function that tells the address of
-   * each file (`mesher.wasm` and, once hexes are asked for, `hexes.wasm`; for more than one thread `mesher-threads.wasm`
-   * and `hexes-threads.wasm`), or the address of the mesher's alone.
+   * each file (`mesher.wasm` and, once hexes or solids are asked for, `hexes.wasm` or `solids.wasm`; for more than one
+   * thread `mesher-threads.wasm` and so on), or the address of the mesher's alone.
    */
   wasmUrl?: string | URL | ((file: WasmFile) => string | URL) | undefined;
   /** Where the worker's script is, if it is not beside this package's files. */
@@ -33,12 +34,15 @@ const USUAL_THREADS = 16;
 /** Every option of a mesher by name: the compiler holds this to be complete. */
 const MESHER_OPTIONS: Readonly<Record<keyof MesherOptions, true>> = { threads: true, wasmUrl: true, workerUrl: true };
 
-/** Starts the workers of a mesher; those of hexes are started when they are first asked for. */
+/** Starts the workers of a mesher; those of hexes and of solids are started when they are first asked for. */
 export async function startMesher(platform: Platform, options: MesherOptions): Promise<Mesher> {
   refuseUnknown(options, Object.keys(MESHER_OPTIONS), 'option of a mesher');
   const threads = threadsFor(platform, options.threads);
-  const mesherOn = async (count: number): Promise<Mesher> =>
-    new Mesher(await startCrew(platform, options, 'mesher', count), count, () => startCrew(platform, options, 'hexes', count));
+  const mesherOn = async (count: number): Promise<Mesher> => {
+    const crews = new Crews((name) => startCrew(platform, options, name, count));
+    await crews.of('mesher');
+    return new Mesher(crews, count);
+  };
   try {
     return await mesherOn(threads);
   } catch (error) {

@@ -2,6 +2,7 @@
 
 mod cancel;
 mod csg;
+mod forecast;
 mod motions;
 mod parts;
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 use hexmill::{
     io::{self, Format},
-    scene::{Axis, Projection, Scene, Style, Surface, Viewport},
+    scene::{Axis, FeatureKind, FeatureLine, Projection, Scene, Style, Surface, Viewport},
     sizing::Shape,
 };
 
@@ -155,6 +155,23 @@ fn the_overlay_follows_the_selection() {
     assert_eq!(scene.front_buffers().discs.len(), front.discs.len() + 1, "the pivot shows while it turns");
     scene.release();
     assert_eq!(scene.front_buffers().discs.len(), front.discs.len());
+}
+
+#[test]
+fn features_are_lines_and_points_that_lost_ones_stand_out_of() {
+    let mut scene = scene("quads/rook.obj", Axis::Iso, Projection::Perspective);
+    let line =
+        |kind, points: &[[f64; 3]]| FeatureLine { kind, points: points.iter().map(|&p| p.into()).collect() };
+    let path = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+    let features = [FeatureKind::Convex, FeatureKind::Lost].map(|kind| line(kind, &path));
+    scene.set_features(features.into_iter().chain([line(FeatureKind::Corner, &path[..1])]).collect());
+    let drawn = scene.region_buffers();
+    assert_eq!((drawn.outlines.len(), drawn.discs.len()), (4, 1));
+    assert_eq!(drawn.outlines[0].to, drawn.outlines[1].from);
+    assert_ne!(drawn.outlines[0].colour, drawn.outlines[2].colour);
+    assert!(drawn.outlines[0].width < drawn.outlines[2].width);
+    scene.set_features(Vec::new());
+    assert!(scene.region_buffers().outlines.is_empty());
 }
 
 #[test]

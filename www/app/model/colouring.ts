@@ -1,15 +1,16 @@
 /** Colours of cells: what the view is given, and the same colours for bars and legends. */
 
+import type { HexedSolid } from 'hexmill';
 import type { Colouring } from '../view.js';
 import type { Inspection } from './inspection.js';
-import { isHexes } from './job.js';
+import { isHexes, isSolid } from './job.js';
 import type { Cells } from './job.js';
 import type { MetricInfo } from './metrics.js';
 
 /** What the view is to colour `mesh` by. Quads outside the brushed range have no value and no colour; hexes are hidden. */
 export function colouring(mesh: Cells, inspection: Inspection): Colouring {
   const { colour, values, info, brush } = inspection;
-  if (colour.value === 'level') {
+  if (colour.value === 'level' && !isSolid(mesh)) {
     const values = Float32Array.from(mesh.level);
     return { kind: 'scalar', values, range: levelRange(mesh), map: 'levels' };
   }
@@ -24,14 +25,17 @@ export function qualityPlace({ range: [low, high], worst }: MetricInfo, value: n
   return worst === 'low' ? (value - low) / (high - low) : (high - value) / (high - low);
 }
 
+/** A mesh with levels. */
+type Levelled = Exclude<Cells, HexedSolid>;
+
 /** The levels that colours span, at least two. Of hexes the first is the least there is: where any are refined, all are. */
-export function levelRange(mesh: Cells): [number, number] {
+export function levelRange(mesh: Levelled): [number, number] {
   const least = isHexes(mesh) ? mesh.level.reduce((low, level) => Math.min(low, level), 255) : 0;
   return [least, mesh.level.reduce((most, level) => Math.max(most, level), least + 1)];
 }
 
 /** The colour of a level of the mesh. */
-export function levelColour(mesh: Cells, level: number): string {
+export function levelColour(mesh: Levelled, level: number): string {
   const [low, high] = levelRange(mesh);
   return mapColour('levels', (level - low) / (high - low));
 }

@@ -3,7 +3,7 @@
 import type { HexMesh, Surface } from 'hexmill';
 import type { GivenSettings } from './link.js';
 import { DEFAULTS } from './settings.js';
-import type { HexSettings, Settings, Vec3 } from './settings.js';
+import type { HexSettings, Settings, SolidSettings, Vec3 } from './settings.js';
 import { diagonal } from './shape.js';
 import { rounded } from './text.js';
 
@@ -12,6 +12,8 @@ export const DEFAULT_FINENESS = 1 / 60;
 /** Default edges of a box of hexes around a model, and how far it reaches beyond it, as parts of the model's diagonal. */
 const DEFAULT_SPACING = 1 / 10;
 const DEFAULT_MARGIN = 1 / 10;
+/** Default edges of hexes that fill a solid, as a part of its diagonal. */
+const DEFAULT_FILLING = 1 / 40;
 
 /** The defaults for a model, overruled by `settings`. */
 export function fitting({ info }: Surface | HexMesh, settings: GivenSettings): Settings {
@@ -24,5 +26,6 @@ export function fitting({ info }: Surface | HexMesh, settings: GivenSettings): S
     edgeLength: rounded(info.longestEdge || length),
     ...settings.hexes,
   };
-  return { ...DEFAULTS, edgeLength: rounded(length * DEFAULT_FINENESS), ...settings, hexes };
+  const solid: SolidSettings = { ...DEFAULTS.solid, edgeLength: rounded(length * DEFAULT_FILLING), ...settings.solid };
+  return { ...DEFAULTS, edgeLength: rounded(length * DEFAULT_FINENESS), ...settings, hexes, solid };
 }

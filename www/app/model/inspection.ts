@@ -4,11 +4,12 @@ import { batch, computed, effect, signal } from '@preact/signals-core';
 import type { ReadonlySignal } from '@preact/signals-core';
 import type { HexMetric, Metric } from 'hexmill';
 import { complaint } from './complaint.js';
-import { isHexes } from './job.js';
+import { isHexes, isSolid } from './job.js';
 import type { Cells } from './job.js';
 import type { Colour } from './link.js';
-import { countBetween, histogramOf, isAcceptable, metricInfo, metricsOf, worstCells } from './metrics.js';
+import { countBetween, histogramOf, isAcceptable, metricInfo, metricsOf, summaryOf, worstCells } from './metrics.js';
 import type { MetricInfo, MetricName } from './metrics.js';
+import { diagonal } from './shape.js';
 import type { Workbench } from './workbench.js';
 
 export interface Range {
@@ -46,6 +47,9 @@ export class Inspection {
     for (const value of this.values.value ?? []) if (isAcceptable(this.info.value, value)) kept += 1;
     return kept;
   });
+  /** Cells that have a value. */
+  readonly measured = computed(() => this.values.value?.reduce((sum, value) => sum + (Number.isNaN(value) ? 0 : 1), 0) ?? 0);
+  readonly summary = computed(() => (this.values.value ? summaryOf(this.values.value) : null));
   readonly brushed = computed(() => {
     const range = this.brush.value;
     return range && this.values.value ? countBetween(this.values.value, range.low, range.high) : null;
@@ -54,7 +58,9 @@ export class Inspection {
   constructor(workbench: Workbench) {
     this.metrics = computed(() => {
       const mesh = workbench.result.value?.mesh;
-      return metricsOf(mesh !== undefined && isHexes(mesh));
+      if (!mesh) return metricsOf(false);
+      const bounds = isSolid(mesh) ? workbench.bounds.value : null;
+      return metricsOf(isHexes(mesh), bounds && diagonal(bounds));
     });
     effect(() => {
       const mesh = workbench.result.value?.mesh ?? null;
@@ -72,6 +78,16 @@ export class Inspection {
         (error: unknown) => workbench.log.add('error', `No ${this.info.peek().label.toLowerCase()}: ${complaint(error).text}`),
       );
     });
+  }
+
+  /** What cells are coloured by. */
+  readonly shown = computed<Colour | 'distance'>(() => (this.colour.value === 'quality' && this.info.value.metric === 'distance' ? 'distance' : this.colour.value));
+
+  /** Colours cells, and looks at the measure that they are coloured by. */
+  show(colour: Colour | 'distance'): void {
+    if (colour === 'distance') return this.choose('distance');
+    if (colour === 'quality' && this.metric.value === 'distance') return this.choose('scaledJacobian');
+    this.colour.value = colour;
   }
 
   /** Looks at another metric and colours the cells by it. */
@@ -108,5 +124,6 @@ export class Inspection {
 
 /** `metric` is one of the mesh's own: see `metricsOf`. */
 function measure(mesh: Cells, metric: MetricName): Promise<Float32Array> {
+  if (metric === 'distance' && isSolid(mesh)) return mesh.distances();
   return isHexes(mesh) ? mesh.qualityOf(metric as HexMetric) : mesh.qualityOf(metric as Metric);
 }

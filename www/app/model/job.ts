@@ -1,10 +1,10 @@
 /** What is made of an input: the quads or hexes, and what can be told of them before. */
 
-import { HexMesh, RefinedHexes } from 'hexmill';
-import type { CallOptions, HexFormat, Mesher, OutputFormat, AddedHexes, QuadMesh, Region, Surface } from 'hexmill';
+import { HexedSolid, HexMesh, QuadMesh } from 'hexmill';
+import type { AddedHexes, CallOptions, HexFormat, Mesher, OutputFormat, RefinedHexes, Region, SolidPlan, Surface } from 'hexmill';
 import type { Example } from './examples.js';
-import { toHexOptions, toOptions } from './settings.js';
-import type { Settings } from './settings.js';
+import { toHexOptions, toOptions, toSolidOptions } from './settings.js';
+import type { Job, Settings } from './settings.js';
 import { counted } from './text.js';
 
 /** The model that is loaded. */
@@ -17,10 +17,15 @@ export interface Input {
 }
 
 /** A mesh that was made. */
-export type Cells = QuadMesh | RefinedHexes;
+export type Cells = QuadMesh | RefinedHexes | HexedSolid;
 
-export function isHexes(mesh: Cells): mesh is RefinedHexes {
-  return mesh instanceof RefinedHexes;
+export function isHexes(mesh: Cells): mesh is RefinedHexes | HexedSolid {
+  return !(mesh instanceof QuadMesh);
+}
+
+/** Whether the mesh fills a solid; else it is a refined one, with levels. */
+export function isSolid(mesh: Cells): mesh is HexedSolid {
+  return mesh instanceof HexedSolid;
 }
 
 /** Nodes of each cell of `mesh`, cell after cell, and how many each has. */
@@ -53,9 +58,9 @@ export function inputOf(name: string, example: Example | null, model: Surface | 
   return model instanceof HexMesh ? { name, example, surface: null, hexes: model } : { name, example, surface: model, hexes: null };
 }
 
-/** Whether hexes are made of `input`. */
-export function makesHexes(input: Input, settings: Settings): boolean {
-  return input.hexes !== null || settings.job === 'hexes';
+/** What is made of `input`: hexes are refined. */
+export function jobOf(input: Input, settings: Settings): Job {
+  return input.hexes ? 'hexes' : settings.job;
 }
 
 /** What can be told before the work. */
@@ -65,15 +70,25 @@ export interface Forecast {
   readonly exact: boolean;
   /** Memory. */
   readonly bytes: number;
-  readonly levels: number;
+  /** Null where there are none. */
+  readonly levels: number | null;
   /** What the method adds to what was asked for. */
   readonly added: AddedHexes | null;
+  /** The solid that will be filled. */
+  readonly solid: SolidPlan | null;
 }
 
-/** Makes meshes, and keeps the box of hexes that was last made around a surface. */
+/** A mesh, and the plan of the solid that it fills. */
+export interface Made {
+  readonly mesh: Cells;
+  readonly plan: SolidPlan | null;
+}
+
+/** Makes meshes, and keeps the box of hexes that was last made around a surface and the solid that was last found in one. */
 export class Maker {
   readonly #mesher: Promise<Mesher>;
   #box: { surface: Surface; spacing: number; margin: number; hexes: HexMesh } | null = null;
+  #plan: ({ surface: Surface; plan: SolidPlan } & Pick<Settings, 'regions' | 'solid'>) | null = null;
 
   constructor(mesher: Promise<Mesher>) {
     this.#mesher = mesher;
@@ -81,20 +96,40 @@ export class Maker {
 
   async foretell(input: Input, settings: Settings, signal: AbortSignal): Promise<Forecast> {
     const mesher = await this.#mesher;
-    if (!makesHexes(input, settings)) {
+    const job = jobOf(input, settings);
+    if (job === 'quads') {
       const { quads, bytes, levels, exact } = await mesher.estimateQuads(surfaceOf(input), { ...toOptions(settings), signal });
-      return { noun: 'quad', cells: quads, exact, bytes, levels, added: null };
+      return { noun: 'quad', cells: quads, exact, bytes, levels, added: null, solid: null };
+    }
+    if (job === 'solid') {
+      const solid = await this.#solid(input, settings, signal);
+      return { noun: 'hex', cells: solid.hexes ?? 0, exact: false, bytes: solid.bytes ?? 0, levels: null, added: null, solid };
     }
     const hexes = await this.#hexes(input, settings, { signal });
     const plan = await mesher.planHexes(hexes, { ...toHexOptions(settings, atSurface(input, settings)), signal });
-    return { noun: 'hex', cells: plan.hexes, exact: true, bytes: plan.bytes, levels: plan.stages.length, added: plan.added };
+    return { noun: 'hex', cells: plan.hexes, exact: true, bytes: plan.bytes, levels: plan.stages.length, added: plan.added, solid: null };
   }
 
-  async make(input: Input, settings: Settings, options: CallOptions): Promise<Cells> {
+  async make(input: Input, settings: Settings, options: CallOptions): Promise<Made> {
     const mesher = await this.#mesher;
-    if (!makesHexes(input, settings)) return mesher.refineQuads(surfaceOf(input), { ...toOptions(settings), ...options });
+    const job = jobOf(input, settings);
+    if (job === 'quads') return { mesh: await mesher.refineQuads(surfaceOf(input), { ...toOptions(settings), ...options }), plan: null };
+    if (job === 'solid') {
+      const mesh = await mesher.meshSolid(surfaceOf(input), { ...toSolidOptions(settings), ...options });
+      return { mesh, plan: await this.#solid(input, settings, options.signal) };
+    }
     const hexes = await this.#hexes(input, settings, options);
-    return mesher.refineHexes(hexes, { ...toHexOptions(settings, atSurface(input, settings)), ...options });
+    return { mesh: await mesher.refineHexes(hexes, { ...toHexOptions(settings, atSurface(input, settings)), ...options }), plan: null };
+  }
+
+  async #solid(input: Input, settings: Settings, signal: AbortSignal | undefined): Promise<SolidPlan> {
+    const surface = surfaceOf(input);
+    const { regions, solid } = settings;
+    const last = this.#plan;
+    if (last && last.surface === surface && last.solid === solid && last.regions === regions) return last.plan;
+    const plan = await (await this.#mesher).planSolid(surface, { ...toSolidOptions(settings), signal });
+    this.#plan = { surface, solid, regions, plan };
+    return plan;
   }
 
   /** The hexes that are refined: the input's, or a box of them around its surface. */

@@ -36,7 +36,7 @@ describe('links', () => {
   test('give the settings back', () => {
     const linked = parseLink(`#${formatLink('spot', full)}`);
     expect(linked?.example).toBe('spot');
-    expect(bare({ ...DEFAULTS, ...linked?.settings, hexes: DEFAULTS.hexes })).toEqual(bare(full));
+    expect(bare({ ...DEFAULTS, ...linked?.settings, hexes: DEFAULTS.hexes, solid: DEFAULTS.solid })).toEqual(bare(full));
   });
 
   test('give levels back', () => {
@@ -70,7 +70,7 @@ describe('links to hexes', () => {
         '&region=box:0,0,0,1,2,3:level=4&section=0,-1,0,0.25&peel=2&colour=level',
     );
     const linked = parseLink(link);
-    expect(bare({ ...DEFAULTS, ...linked?.settings, hexes: { ...DEFAULTS.hexes, ...linked?.settings.hexes } })).toEqual(bare(hexes));
+    expect(bare({ ...DEFAULTS, ...linked?.settings, hexes: { ...DEFAULTS.hexes, ...linked?.settings.hexes }, solid: DEFAULTS.solid })).toEqual(bare(hexes));
     expect(linked?.cut).toEqual({ section: { normal: [0, -1, 0], offset: 0.25 }, peel: 2 });
     expect(linked?.colour).toBe('level');
   });
@@ -94,6 +94,24 @@ describe('links to hexes', () => {
     );
     expect(formatCommand({ name: 'part.msh', holdsHexes: true }, 'out.vtu', { ...DEFAULTS, hexes: { ...DEFAULTS.hexes, method: 'two', levels: 2 } })).toBe(
       'hexmill refine part.msh -o out.vtu --method two --levels 2',
+    );
+  });
+});
+
+describe('links to solids', () => {
+  const solid: Settings = { ...DEFAULTS, job: 'solid', solid: { ...DEFAULTS.solid, edgeLength: 0.5, featureAngle: 40, background: 'octree', maxDistance: 0.01, maxLevels: 1 }, regions: full.regions.slice(1, 2) };
+
+  test('give the job back', () => {
+    const link = formatLink('plate', solid);
+    expect(link).toBe('example=plate&job=solid&edge-length=0.5&feature-angle=40&background=octree&max-distance=0.01&max-levels=1&region=box:0,0,0,1,2,3:level=4');
+    const linked = parseLink(link);
+    expect(bare({ ...DEFAULTS, ...linked?.settings, hexes: DEFAULTS.hexes, solid: { ...DEFAULTS.solid, ...linked?.settings.solid } })).toEqual(bare(solid));
+    expect(parseLink('#example=plate&job=solid&feature-angle=400&background=none')?.settings).toMatchObject({ job: 'solid', solid: {} });
+  });
+
+  test('are one command', () => {
+    expect(formatCommand({ name: 'plate.obj', holdsHexes: false }, 'out.vtu', solid)).toBe(
+      'hexmill hex plate.obj -o out.vtu --edge-length 0.5 --feature-angle 40 --background octree --max-distance 0.01 --max-levels 1 --region box:0,0,0,1,2,3:level=4',
     );
   });
 });

@@ -3,14 +3,15 @@
  *
  * A link is `#example=spot&edge-length=0.05&region=sphere:0,0,0,1:h=0.01`: the command line's options by
  * name, without their dashes. Only what differs from the defaults is written. For hexes it begins with
- * `#example=spot&job=hexes&spacing=0.2&margin=0.3&at-surface=2`; at the end stands how the mesh is looked at, such as
+ * `#example=spot&job=hexes&spacing=0.2&margin=0.3&at-surface=2`, for a solid with
+ * `#example=plate&job=solid&edge-length=2`; at the end stands how the mesh is looked at, such as
  * `section=0,-1,0,0.25`: the normal and the offset of the plane that cuts it open.
  */
 
 import { parseCut } from './cutting.js';
 import type { Cut } from './cutting.js';
 import { DEFAULTS, LIMITS, region } from './settings.js';
-import type { HexSettings, Region, Settings, Shape, Target } from './settings.js';
+import type { HexSettings, Job, Region, Settings, Shape, SolidSettings, Target } from './settings.js';
 import { fault } from './shape.js';
 import { editable, parseNumber } from './text.js';
 
@@ -23,7 +24,7 @@ export interface Linked {
 }
 
 /** Settings of which some are left to what suits the model. */
-export type GivenSettings = Partial<Omit<Settings, 'hexes'>> & { readonly hexes?: Partial<HexSettings> };
+export type GivenSettings = Partial<Omit<Settings, 'hexes' | 'solid'>> & { readonly hexes?: Partial<HexSettings>; readonly solid?: Partial<SolidSettings> };
 
 export type Colour = 'plain' | 'level' | 'quality';
 
@@ -36,6 +37,14 @@ export const METHODS: readonly { method: HexSettings['method']; label: string; n
   { method: 'one', label: 'I', note: 'Method I: layer templates. The best shapes; more cells are refined' },
   { method: 'two', label: 'II', note: 'Method II: a pillow and one template. Hardly more cells than asked for' },
   { method: 'three', label: '3', note: '3-refinement: each level cuts edges in three' },
+];
+
+/** The backgrounds of solids by what they are called. */
+export const BACKGROUNDS: readonly { background: SolidSettings['background']; label: string; note: string }[] = [
+  { background: 'auto', label: 'Auto', note: 'What suits the solid' },
+  { background: 'swept', label: 'Swept', note: 'Quads of an outline, in layers: for parts that are extruded' },
+  { background: 'grid', label: 'Grid', note: 'A grid with lines in planar faces' },
+  { background: 'octree', label: 'Octree', note: 'A grid, refined where the solid has details' },
 ];
 
 /** Each option of quads that differs from the defaults. */
@@ -73,8 +82,23 @@ function boxOptions({ spacing, margin }: HexSettings): Entry[] {
   return [['spacing', editable(spacing)], ['margin', editable(margin)]];
 }
 
+/** Each option of a solid that differs from the defaults. */
+function solidOptions(settings: Settings): Entry[] {
+  const { solid } = settings;
+  const usual = DEFAULTS.solid;
+  const list: Entry[] = [['edge-length', editable(solid.edgeLength)]];
+  if (solid.featureAngle !== usual.featureAngle) list.push(['feature-angle', editable(solid.featureAngle)]);
+  if (solid.background !== usual.background) list.push(['background', solid.background]);
+  if (solid.curvature !== null) list.push(['curvature', editable(solid.curvature)]);
+  if (solid.maxDistance !== null) list.push(['max-distance', editable(solid.maxDistance)]);
+  if (solid.maxLevels !== usual.maxLevels) list.push(['max-levels', String(solid.maxLevels)]);
+  if (solid.maxHexes !== usual.maxHexes) list.push(['max-hexes', String(solid.maxHexes)]);
+  return list.concat(regionOptions(settings));
+}
+
 function options(settings: Settings): Entry[] {
   if (settings.job === 'quads') return quadOptions(settings);
+  if (settings.job === 'solid') return [['job', 'solid'], ...solidOptions(settings)];
   const { hexes } = settings;
   return [['job', 'hexes'], ...boxOptions(hexes), ['at-surface', String(hexes.atSurface)], ...hexOptions(settings)];
 }
@@ -91,6 +115,7 @@ export function formatCommand(input: { name: string; holdsHexes: boolean }, outp
   const { name, holdsHexes } = input;
   if (holdsHexes) return command('refine', name, output, hexOptions(settings));
   if (settings.job === 'quads') return command('refine', name, output, quadOptions(settings));
+  if (settings.job === 'solid') return command('hex', name, output, solidOptions(settings));
   const { hexes } = settings;
   const surface: Entry[] = hexes.atSurface > 0 ? [['region', quoted(`surface:${name},0:level=${hexes.atSurface}`)]] : [];
   return `${command('grid', name, BOX, boxOptions(hexes))} && ${command('refine', BOX, output, [...hexOptions(settings), ...surface])}`;
@@ -110,8 +135,7 @@ export function parseLink(hash: string): Linked | null {
   };
   const regions = entries.getAll('region').flatMap((text) => parseRegion(text) ?? []);
   const gradation = number('gradation', LIMITS.gradation.min, LIMITS.gradation.max) ?? DEFAULTS.gradation;
-  const settings =
-    entries.get('job') === 'hexes' ? { job: 'hexes' as const, hexes: parseHexes(entries, number) } : parseQuads(entries, number);
+  const settings = PARSED[JOBS.find((job) => job === entries.get('job')) ?? 'quads'](entries, number);
   const colour = COLOURS.find((known) => known === entries.get('colour')) ?? 'plain';
   return { example, settings: { ...settings, gradation, regions }, cut: parseCut(entries), colour };
 }
@@ -120,6 +144,15 @@ const COLOURS: readonly Colour[] = ['plain', 'level', 'quality'];
 
 /** A number of the link within bounds; null if there is none. */
 type Numbers = (name: string, low: number, high: number) => number | null;
+
+const JOBS: readonly Job[] = ['quads', 'hexes', 'solid'];
+
+/** What a link says of each job. */
+const PARSED: Readonly<Record<Job, (entries: URLSearchParams, number: Numbers) => GivenSettings>> = {
+  quads: parseQuads,
+  hexes: (entries, number) => ({ job: 'hexes', hexes: parseHexes(entries, number) }),
+  solid: (entries, number) => ({ job: 'solid', solid: parseSolid(entries, number) }),
+};
 
 function parseQuads(entries: URLSearchParams, number: Numbers): GivenSettings {
   const settings: { -readonly [K in keyof GivenSettings]?: GivenSettings[K] } = {};
@@ -150,7 +183,25 @@ function parseHexes(entries: URLSearchParams, number: Numbers): Partial<HexSetti
     maxLevels: whole(number('max-levels', min, max)),
     maxHexes: number('max-hexes', LIMITS.maxHexes.min, LIMITS.maxHexes.max),
   };
-  return Object.fromEntries(Object.entries(given).filter(([, value]) => value !== null)) as Partial<HexSettings>;
+  return present(given) as Partial<HexSettings>;
+}
+
+function parseSolid(entries: URLSearchParams, number: Numbers): Partial<SolidSettings> {
+  const levels = number('max-levels', LIMITS.solidLevels.min, LIMITS.solidLevels.max);
+  return present({
+    background: BACKGROUNDS.find(({ background }) => background === entries.get('background'))?.background ?? null,
+    curvature: number('curvature', LIMITS.curvature.min, LIMITS.curvature.max),
+    maxDistance: number('max-distance', Number.MIN_VALUE, Number.MAX_VALUE),
+    maxLevels: levels === null ? null : Math.round(levels),
+    edgeLength: number('edge-length', Number.MIN_VALUE, Number.MAX_VALUE),
+    featureAngle: number('feature-angle', LIMITS.featureAngle.min, LIMITS.featureAngle.max),
+    maxHexes: number('max-hexes', LIMITS.maxHexesOfSolids.min, LIMITS.maxHexesOfSolids.max),
+  }) as Partial<SolidSettings>;
+}
+
+/** The entries that are there. */
+function present(given: Readonly<Record<string, unknown>>): object {
+  return Object.fromEntries(Object.entries(given).filter(([, value]) => value !== null));
 }
 
 /** `sphere:0,0,0,1:h=0.1`, as the command line takes it. */

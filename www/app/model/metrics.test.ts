@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { countBetween, histogramOf, levelCounts, metricInfo, metricsOf, worstCells } from './metrics.js';
+import { countBetween, histogramOf, isAcceptable, levelCounts, metricInfo, metricsOf, summaryOf, worstCells } from './metrics.js';
 import type { MetricInfo, MetricName } from './metrics.js';
 import { mapColour, qualityPlace } from './colouring.js';
 
@@ -22,6 +22,17 @@ test('worst cells agree with a full sort', () => {
 test('counts', () => {
   expect(countBetween(Float32Array.of(0, 0.5, 1, Number.NaN), 0.5, 1)).toBe(2);
   expect(levelCounts(Uint8Array.of(1, 3, 3))).toEqual([0, 1, 0, 2]);
+});
+
+test('distances are measured of solids alone, by their size; cells inside have none', () => {
+  expect(metricsOf(true).map(({ metric }) => metric)).not.toContain('distance');
+  const info = metricInfo(metricsOf(true, 50), 'distance');
+  expect([isAcceptable(info, 0.09), isAcceptable(info, 0.11)]).toEqual([true, false]);
+  expect(info.decimals).toBe(3);
+  const values = Float32Array.of(Number.NaN, 0.5, 0.25, Number.NaN, 0);
+  expect(worstCells(values, info, 9)).toEqual([1, 2, 4]);
+  expect(summaryOf(values)).toEqual({ min: 0, max: 0.5, mean: 0.25, percentile1: 0 });
+  expect(histogramOf(values, info, 2)).toEqual({ min: 0, max: 0.5, counts: [1, 2] });
 });
 
 test('the bad end of every measure has the same colour', () => {

@@ -1,8 +1,8 @@
 /** Quality measures of quads and hexes: names, units, and what is acceptable. */
 
-import type { HexMetric, Metric } from 'hexmill';
+import type { HexMetric, Metric, QualitySummary } from 'hexmill';
 
-export type MetricName = Metric | Exclude<HexMetric, 'volume'>;
+export type MetricName = Metric | Exclude<HexMetric, 'volume'> | 'distance';
 
 export interface MetricInfo {
   readonly metric: MetricName;
@@ -56,9 +56,23 @@ const OF_HEXES: readonly MetricInfo[] = [
   },
 ];
 
-/** What is measured of quads or of hexes. */
-export function metricsOf(hexes: boolean): readonly MetricInfo[] {
-  return hexes ? OF_HEXES : OF_QUADS;
+/** Distances that are acceptable, as a part of the model's diagonal: what parts of machines are held to. */
+const NEAR = 0.002;
+
+/** The distance of cells at the boundary from what was given, in model units, for a model of this diagonal. */
+function distance(diagonal: number): MetricInfo {
+  const acceptable = NEAR * diagonal;
+  return {
+    metric: 'distance', label: 'Distance to the input', unit: '', decimals: Math.min(12, Math.max(0, 2 - Math.floor(Math.log10(acceptable)))),
+    worst: 'high', ideal: 0, acceptable, range: [0, 2 * acceptable],
+    says: `Of cells at the boundary, in model units; the bound is ${100 * NEAR} % of the model’s diagonal.`,
+  };
+}
+
+/** What is measured of quads, of hexes, and of hexes that fill a solid of some diagonal. */
+export function metricsOf(hexes: boolean, diagonal: number | null = null): readonly MetricInfo[] {
+  if (!hexes) return OF_QUADS;
+  return diagonal ? [...OF_HEXES, distance(diagonal)] : OF_HEXES;
 }
 
 /** What is known of `metric`; of the first of `metrics` if it is none of them. */
@@ -82,7 +96,7 @@ export interface Histogram {
 
 /** Counts of `values` in `bins` equal steps over the metric's usual range, widened to hold all of them. */
 export function histogramOf(values: Float32Array, info: MetricInfo, bins: number): Histogram {
-  let [min, max] = [info.range[0], info.worst === 'low' ? info.range[1] : info.range[0] + 1e-6];
+  let [min, max] = [info.range[0], info.worst === 'low' ? info.range[1] : info.range[0] + 1e-6 * info.range[1]];
   for (const value of values) {
     if (value < min) min = value;
     if (value > max) max = value;
@@ -95,6 +109,14 @@ export function histogramOf(values: Float32Array, info: MetricInfo, bins: number
   return { min, max, counts };
 }
 
+/** The distribution of the values that are numbers. */
+export function summaryOf(values: Float32Array): Pick<QualitySummary, 'min' | 'max' | 'mean' | 'percentile1'> {
+  const numbers = values.filter((value) => !Number.isNaN(value)).sort();
+  const at = (share: number): number => numbers[Math.floor(share * (numbers.length - 1))] ?? Number.NaN;
+  const mean = numbers.reduce((sum, value) => sum + value, 0) / numbers.length;
+  return { min: at(0), max: at(1), mean, percentile1: at(0.01) };
+}
+
 /** How many of `values` lie from `low` to `high`. */
 export function countBetween(values: Float32Array, low: number, high: number): number {
   let found = 0;
@@ -102,7 +124,7 @@ export function countBetween(values: Float32Array, low: number, high: number): n
   return found;
 }
 
-/** The `wanted` worst cells, worst first; of equal ones the first in the mesh. */
+/** The `wanted` worst cells, worst first; of equal ones the first in the mesh. Those without a value are none of them. */
 export function worstCells(values: Float32Array, info: MetricInfo, wanted: number): number[] {
   const sign = info.worst === 'low' ? 1 : -1;
   const cells: number[] = [];
@@ -110,7 +132,7 @@ export function worstCells(values: Float32Array, info: MetricInfo, wanted: numbe
   let bound = Number.POSITIVE_INFINITY;
   for (let cell = 0; cell < values.length; cell += 1) {
     const value = badness(cell);
-    if (cells.length === wanted && !(value < bound)) continue;
+    if (Number.isNaN(value) || (cells.length === wanted && !(value < bound))) continue;
     let place = cells.length;
     while (place > 0 && badness(cells[place - 1] ?? 0) > value) place -= 1;
     cells.splice(place, 0, cell);
@@ -120,7 +142,7 @@ export function worstCells(values: Float32Array, info: MetricInfo, wanted: numbe
   return cells;
 }
 
-/** How many cells each level has, from level 0. */
+/** How many cells each level has, from level 0; none of a mesh without levels. */
 export function levelCounts(level: Uint8Array): number[] {
   const counts: number[] = [];
   for (const l of level) counts[l] = (counts[l] ?? 0) + 1;

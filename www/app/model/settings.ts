@@ -1,7 +1,7 @@
 /** What the page asks of the mesher: everything that undo, the link and the command line carry. */
 
-import { MOST_HEXES, MOST_QUADS } from 'hexmill';
-import type { HexOptions, Method, QuadOptions, Region as RegionOption } from 'hexmill';
+import { MOST_HEXES, MOST_HEXES_OF_SOLIDS, MOST_QUADS } from 'hexmill';
+import type { Background, HexOptions, Method, QuadOptions, Region as RegionOption, SolidOptions } from 'hexmill';
 import type { ViewRegion } from '../view.js';
 
 export type Vec3 = [number, number, number];
@@ -18,8 +18,8 @@ export interface Region {
   readonly target: Target;
 }
 
-/** What is made of a surface: quads on it, or hexes in a box around it. */
-export type Job = 'quads' | 'hexes';
+/** What is made of a surface: quads on it, hexes in a box around it, or hexes that fill the solid in it. */
+export type Job = 'quads' | 'hexes' | 'solid';
 
 /** What is asked of hexes alone. Lengths in model units. */
 export interface HexSettings {
@@ -36,9 +36,26 @@ export interface HexSettings {
   readonly maxHexes: number;
 }
 
+/** What is asked of hexes that fill a solid. */
+export interface SolidSettings {
+  /** Model units. */
+  readonly edgeLength: number;
+  /** Degrees between faces of different surfaces. */
+  readonly featureAngle: number;
+  readonly background: Background;
+  /** Degrees of the normal's turn that one edge may span; null: curvature is not looked at. */
+  readonly curvature: number | null;
+  /** How far the mesh may be from the surface, in model units; null: as far as the edge length makes it. */
+  readonly maxDistance: number | null;
+  /** Levels that hexes may be finer where something would be missed. */
+  readonly maxLevels: number;
+  readonly maxHexes: number;
+}
+
 export interface Settings {
   readonly job: Job;
   readonly hexes: HexSettings;
+  readonly solid: SolidSettings;
   /** What sizes the whole mesh: a length, or a number of refinements. The other value is kept for switching back. */
   readonly by: 'length' | 'levels';
   /** Model units. */
@@ -60,6 +77,9 @@ export const LIMITS = {
   maxQuads: { min: 1_000, max: MOST_QUADS },
   hexLevels: { min: 0, max: 8 },
   maxHexes: { min: 1_000, max: MOST_HEXES },
+  featureAngle: { min: 5, max: 90 },
+  solidLevels: { min: 0, max: 4 },
+  maxHexesOfSolids: { min: 1_000, max: MOST_HEXES_OF_SOLIDS },
 } as const;
 
 export const DEFAULTS: Settings = {
@@ -74,6 +94,15 @@ export const DEFAULTS: Settings = {
     levels: 0,
     maxLevels: 8,
     maxHexes: MOST_HEXES,
+  },
+  solid: {
+    edgeLength: 1,
+    featureAngle: 35,
+    background: 'auto',
+    curvature: null,
+    maxDistance: null,
+    maxLevels: 2,
+    maxHexes: MOST_HEXES_OF_SOLIDS,
   },
   by: 'length',
   edgeLength: 1,
@@ -117,6 +146,12 @@ export function toHexOptions({ hexes, regions, gradation }: Settings, more: read
     maxLevels: hexes.maxLevels,
     maxHexes: hexes.maxHexes,
   };
+}
+
+/** The options of hexes that fill a solid for `settings`. */
+export function toSolidOptions({ solid, regions }: Settings): SolidOptions {
+  const { curvature, maxDistance, ...rest } = solid;
+  return { ...rest, curvature: curvature ?? undefined, maxDistance: maxDistance ?? undefined, regions: regions.map(toRegionOption) };
 }
 
 function toRegionOption({ shape, target }: Region): RegionOption {

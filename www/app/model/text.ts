@@ -59,6 +59,14 @@ const DOING: Readonly<Record<string, string>> = {
   pillow: 'making layers',
   untangling: 'untangling transitions',
   smoothing: 'smoothing transitions',
+  solid: 'finding the solid',
+  background: 'laying out cells',
+  core: 'choosing cells inside',
+  correspondence: 'matching corners and curves',
+  sheets: 'adding layers at the boundary',
+  fitting: 'moving nodes to the boundary',
+  unlocking: 'freeing nodes that are stuck',
+  distance: 'measuring distances',
 };
 
 /** What is being done in a stage of the work. */

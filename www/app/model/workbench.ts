@@ -5,7 +5,7 @@
 
 import { batch, computed, effect, signal } from '@preact/signals-core';
 import { HexMesh } from 'hexmill';
-import type { Mesher, OutputFormat } from 'hexmill';
+import type { Mesher, OutputFormat, SolidPlan } from 'hexmill';
 import { complaint } from './complaint.js';
 import type { Complaint } from './complaint.js';
 import type { Example } from './examples.js';
@@ -13,20 +13,19 @@ import { stem, WRITABLE } from './formats.js';
 import { History } from './history.js';
 import { debounced, Latest } from './latest.js';
 import { DEFAULT_FINENESS, fitting } from './fitting.js';
-import { countedCells, exported, inputOf, makesHexes, Maker } from './job.js';
-import type { Cells, Forecast, Input } from './job.js';
+import { countedCells, exported, inputOf, jobOf, Maker } from './job.js';
+import type { Forecast, Input, Made } from './job.js';
 import { formatLink } from './link.js';
 import type { Entry, GivenSettings } from './link.js';
 import { Log } from './log.js';
 import { DEFAULTS, region } from './settings.js';
-import type { HexSettings, Job, Region, Settings, Shape, ShapeKind, Vec3 } from './settings.js';
+import type { HexSettings, Job, Region, Settings, Shape, ShapeKind, SolidSettings, Vec3 } from './settings.js';
 import { center, diagonal, extent, fault, newShape, tidy, translated } from './shape.js';
 import type { Bounds } from './shape.js';
 import { bytes, counted, doing, duration, rounded } from './text.js';
 
 /** A finished mesh with what made it. */
-export interface Result {
-  readonly mesh: Cells;
+export interface Result extends Made {
   readonly input: Input;
   readonly settings: Settings;
   readonly milliseconds: number;
@@ -88,8 +87,12 @@ export class Workbench {
     }
     return null;
   });
+  /** What is made; quads as long as there is no input. */
+  readonly job = computed<Job>(() => (this.input.value ? jobOf(this.input.value, this.settings.value) : 'quads'));
   /** Whether hexes are made. */
-  readonly makesHexes = computed(() => this.input.value !== null && makesHexes(this.input.value, this.settings.value));
+  readonly makesHexes = computed(() => this.job.value !== 'quads');
+  /** What was last found of the solid that is to be filled. */
+  readonly solid = computed<SolidPlan | null>(() => (this.job.value === 'solid' ? (this.estimate.value?.solid ?? null) : null));
   /** The most cells that are made live. */
   readonly liveLimit = computed(() => LIVE[this.makesHexes.value ? 'hex' : 'quad']);
   /** Whether the result is of the input and the settings as they now are. */
@@ -191,6 +194,10 @@ export class Workbench {
     this.edit({ hexes: { ...this.settings.value.hexes, ...change } }, `hexes ${Object.keys(change).join()}`);
   }
 
+  editSolid(change: Partial<SolidSettings>): void {
+    this.edit({ solid: { ...this.settings.value.solid, ...change } }, `solid ${Object.keys(change).join()}`);
+  }
+
   /** Chooses what is made of the surface. */
   choose(job: Job): void {
     this.edit({ job });
@@ -225,7 +232,8 @@ export class Workbench {
 
   /** How long edges are where nothing asks for shorter ones, or would be by default. */
   usualEdge(): number {
-    const { hexes, by, edgeLength } = this.settings.value;
+    const { hexes, solid, by, edgeLength } = this.settings.value;
+    if (this.job.value === 'solid') return solid.edgeLength;
     const bounds = this.bounds.value;
     if (this.makesHexes.value) return this.input.value?.hexes?.info.meanEdge ?? hexes.spacing;
     return by === 'length' || !bounds ? edgeLength : diagonal(bounds) * DEFAULT_FINENESS;
@@ -297,11 +305,12 @@ export class Workbench {
     this.trouble.mesh.value = null;
     const started = performance.now();
     try {
-      const mesh = await this.#busy('meshing', (signal, onProgress) => this.#maker.make(input, settings, { signal, onProgress }));
-      if (mesh === null) return;
+      const made = await this.#busy('meshing', (signal, onProgress) => this.#maker.make(input, settings, { signal, onProgress }));
+      if (made === null) return;
       const milliseconds = performance.now() - started;
+      const { mesh } = made;
       batch(() => {
-        this.result.value = { mesh, input, settings, milliseconds };
+        this.result.value = { ...made, input, settings, milliseconds };
         this.shows.value = 'mesh';
         this.trouble.output.value = null;
       });

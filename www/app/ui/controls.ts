@@ -6,7 +6,8 @@ import { live } from 'lit-html/directives/live.js';
 import { icon } from './icons.js';
 import type { IconName } from './icons.js';
 import type { Complaint } from '../model/complaint.js';
-import { editable, parseNumber } from '../model/text.js';
+import { LIMITS } from '../model/settings.js';
+import { editable, parseNumber, significant } from '../model/text.js';
 
 export interface NumberField {
   readonly label: string;
@@ -101,6 +102,24 @@ export function slider({ label, value, min, max, logarithmic = false, digits = 2
   return html`<input class="slider" type="range" aria-label=${label} aria-valuetext=${text(value)} min="0" max=${steps} step="1"
     style="--at:${place}" .value=${live(String(Math.round(place * steps)))}
     @input=${(event: Event) => change(at(Number((event.target as HTMLInputElement).value) / steps))} />`;
+}
+
+/** A length of edges, as a figure and as a slider from `min` to `max`. */
+export function edgeLength({ label, value, min, max, change }: Pick<Slider, 'label' | 'value' | 'min' | 'max' | 'change'>): TemplateResult {
+  return html`
+    ${numberField({ label, value, min: 0, open: true, unit: 'model units', change })}
+    ${slider({ label: 'Edge length', value, min, max, logarithmic: true, text: (v) => `${significant(v)} model units`, change })}
+    <div class="ends" aria-hidden="true"><span>finer</span><span>coarser</span></div>`;
+}
+
+/** The turn of the surface that one edge may span, or none. */
+export function curvature(value: number | null, change: (value: number | null) => void): TemplateResult {
+  const { min, max, usual } = LIMITS.curvature;
+  return html`
+    ${toggle('Follow curvature', value !== null, (on) => change(on ? usual : null))}
+    ${value === null
+      ? nothing
+      : numberField({ label: 'Turn of the surface along one edge, at most', value, min, max, unit: 'degrees', step: 1, change })}`;
 }
 
 export interface Choice<T extends string> {

@@ -32,7 +32,11 @@ export function inputStep(page: Page): TemplateResult {
 function job({ workbench }: Page): TemplateResult {
   return segmented(
     'Make',
-    [{ value: 'quads', label: 'Quads on it' }, { value: 'hexes', label: 'Hexes around it' }],
+    [
+      { value: 'quads', label: 'Quads on it', note: 'Quads on the surface' },
+      { value: 'hexes', label: 'Hexes around it', note: 'Hexes in a box around the surface' },
+      { value: 'solid', label: 'Hexes in it', note: 'Hexes that fill the solid inside the surface, which has to be closed' },
+    ],
     workbench.settings.value.job,
     (choice) => workbench.choose(choice),
   );

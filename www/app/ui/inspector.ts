@@ -5,11 +5,12 @@ import type { TemplateResult } from 'lit-html';
 import type { AddedHexes, QualitySummary } from 'hexmill';
 import { iconButton, segmented, select } from './controls.js';
 import { cutPanel } from './cut-panel.js';
+import { distancePanel, featurePanel } from './solid-panels.js';
 import { histogram } from './histogram.js';
 import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { levelColour, mapColour, qualityPlace } from '../model/colouring.js';
-import { cellCount, cornersOf, isHexes, nounOf } from '../model/job.js';
+import { cellCount, cornersOf, isHexes, isSolid, nounOf } from '../model/job.js';
 import type { Cells } from '../model/job.js';
 import { isAcceptable, levelCounts } from '../model/metrics.js';
 import { count, duration, fixed, percent } from '../model/text.js';
@@ -23,14 +24,19 @@ export function inspector(page: Page): TemplateResult {
   return html`
     ${figures(result)}
     ${isHexes(result.mesh) ? cutPanel(page) : nothing}
+    ${isSolid(result.mesh) ? html`${featurePanel(page, result.mesh)}${distancePanel(page, result.mesh)}` : nothing}
     ${certificate(page, result)}
     <section aria-labelledby="colour-title">
       <h2 id="colour-title">Colour</h2>
       ${segmented(
         'Colour cells by',
-        [{ value: 'plain', label: 'Plain' }, { value: 'quality', label: 'Quality' }, { value: 'level', label: 'Level' }],
-        page.inspection.colour.value,
-        (colour) => (page.inspection.colour.value = colour),
+        [
+          { value: 'plain', label: 'Plain' },
+          { value: 'quality', label: 'Quality' },
+          isSolid(result.mesh) ? { value: 'distance', label: 'Distance' } : { value: 'level', label: 'Level' },
+        ],
+        page.inspection.shown.value,
+        (colour) => page.inspection.show(colour),
       )}
     </section>
     ${quality(page, result)} ${cell(page, result)} ${levels(page, result)}`;
@@ -41,7 +47,7 @@ function figures({ mesh, milliseconds }: Result): TemplateResult {
     <p><b data-figure=${PLURAL[nounOf(mesh)]}>${count(cellCount(mesh))}</b><span>${PLURAL[nounOf(mesh)]}</span></p>
     <p><b data-figure="nodes">${count(mesh.nodes.length / 3)}</b><span>nodes</span></p>
     <p class="aside">made in ${duration(milliseconds)}</p>
-    ${isHexes(mesh) ? additions(mesh.added) : nothing}
+    ${'added' in mesh ? additions(mesh.added) : nothing}
   </section>`;
 }
 
@@ -81,7 +87,7 @@ function certificate(page: Page, { mesh }: Result): TemplateResult {
         ? CERTIFIED[nounOf(mesh)].map((text) => html`<li class="good">${icon('check')}${text}</li>`)
         : defects.slice(0, DEFECTS_SHOWN).map((text) => html`<li class="bad">${icon('warn')}${text}</li>`)}
       ${more > 0 ? html`<li>and ${count(more)} more, in the log</li>` : nothing}
-      ${mesh.capped > 0 ? html`<li class="note">${icon('warn')}${count(mesh.capped)} cells are larger than asked for: the deepest level was reached.</li>` : nothing}
+      ${'capped' in mesh && mesh.capped > 0 ? html`<li class="note">${icon('warn')}${count(mesh.capped)} cells are larger than asked for: the deepest level was reached.</li>` : nothing}
     </ul>
     <p class="hash"><span title="The same settings give this hash on every machine">Hash</span><code>${mesh.hash}</code>
       ${iconButton({ icon: 'copy', label: 'Copy the hash', press: () => void page.copyHash(mesh.hash) })}</p>
@@ -91,11 +97,10 @@ function certificate(page: Page, { mesh }: Result): TemplateResult {
 function quality({ inspection }: Page, { mesh }: Result): TemplateResult {
   const info = inspection.info.value;
   // What is measured is one of the mesh's own: see `metricsOf`.
-  const summary = (mesh.quality as Readonly<Record<string, QualitySummary>>)[info.metric];
+  const summary = (mesh.quality as Readonly<Record<string, QualitySummary>>)[info.metric] ?? inspection.summary.value;
   if (!summary) return html``;
   const text = (value: number): string => `${fixed(value, info.decimals)}${info.unit}`;
-  const cells = cellCount(mesh);
-  const { brush, brushed, cell, values } = inspection;
+  const { brush, brushed, cell, measured, values } = inspection;
   const { min, max, mean, percentile1 } = summary;
   const stats =
     info.worst === 'low'
@@ -118,7 +123,7 @@ function quality({ inspection }: Page, { mesh }: Result): TemplateResult {
     ${brush.value
       ? html`<p class="hint">${count(brushed.value ?? 0)} cells from ${text(brush.value.low)} to ${text(brush.value.high)}.
           <button class="text-button" type="button" @click=${() => inspection.select(null)}>Show all</button></p>`
-      : html`<p class="hint"><b>${percent(inspection.acceptable.value, cells)}</b> acceptable (${info.worst === 'low' ? 'at least' : 'at most'} ${text(info.acceptable)}). ${info.says}</p>`}
+      : html`<p class="hint"><b>${percent(inspection.acceptable.value, measured.value)}</b> acceptable (${info.worst === 'low' ? 'at least' : 'at most'} ${text(info.acceptable)}). ${info.says}</p>`}
   </section>`;
 }
 
@@ -143,8 +148,8 @@ function cell(page: Page, { mesh }: Result): TemplateResult | typeof nothing {
     ${looked === null || value === null
       ? html`<p class="hint">Step through them, or click a cell in the view.</p>`
       : html`<dl class="facts" data-cell=${looked}>
-          <dt>${info.value.label}</dt><dd>${fixed(value, info.value.decimals)}${info.value.unit}</dd>
-          <dt>Cell</dt><dd>${count(looked)}<small>level ${mesh.level[looked]}, of input ${isHexes(mesh) ? 'hex' : 'face'} ${count(mesh.parent[looked] ?? 0)}</small></dd>
+          <dt>${info.value.label}</dt><dd>${Number.isNaN(value) ? 'none, it lies inside' : `${fixed(value, info.value.decimals)}${info.value.unit}`}</dd>
+          <dt>Cell</dt><dd>${count(looked)}${isSolid(mesh) ? nothing : html`<small>level ${mesh.level[looked]}, of input ${isHexes(mesh) ? 'hex' : 'face'} ${count(mesh.parent[looked] ?? 0)}</small>`}</dd>
           <dt>Nodes</dt><dd class="ids">${nodesOf(mesh, looked).map((node) => count(node)).join('  ')}</dd>
         </dl>
         <button class="text-button" type="button" @click=${() => page.viewport.show(looked)}>${icon('target')}Show it</button>`}
@@ -156,7 +161,8 @@ function nodesOf(mesh: Cells, cell: number): number[] {
   return Array.from(corners.subarray(each * cell, each * (cell + 1)));
 }
 
-function levels({ inspection }: Page, { mesh }: Result): TemplateResult {
+function levels({ inspection }: Page, { mesh }: Result): TemplateResult | typeof nothing {
+  if (isSolid(mesh)) return nothing;
   const counts = levelCounts(mesh.level);
   const most = Math.max(...counts);
   const isColoured = inspection.colour.value === 'level';

@@ -4,7 +4,7 @@ import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { complaintNote, toggle } from './controls.js';
 import type { Page } from './page.js';
-import { MOST_QUADS } from 'hexmill';
+import { MOST_HEXES_OF_SOLIDS, MOST_QUADS } from 'hexmill';
 import type { Forecast } from '../model/job.js';
 import { bytes, counted, doing, duration, roughCount } from '../model/text.js';
 
@@ -37,24 +37,31 @@ function estimate({ workbench }: Page): TemplateResult | string {
   if (workbench.fault.value) return html`<span class="fault">${workbench.fault.value}</span>`;
   if (trouble) return html`<span class="fault">${trouble.text}</span>`;
   if (!guess) return workbench.input.value ? 'Estimating…' : 'Open a model to begin';
-  if (guess.noun === 'hex') return hexEstimate(guess);
+  if (guess.noun === 'hex' && !guess.solid) return hexEstimate(guess);
   const about = guess.exact ? '' : 'about ';
-  const { maxQuads } = workbench.settings.value;
-  if (guess.cells > maxQuads) {
-    const size = `${about}${roughCount(guess.cells)} quads, ${bytes(guess.bytes)}`;
-    return html`<span class="fault" data-cells=${guess.cells}>${size}: more than ${maxQuads < MOST_QUADS ? 'your limit of' : 'this page can hold,'} ${roughCount(maxQuads)}. Raise the edge length, or use fewer levels.</span>`;
+  const { maxQuads, solid } = workbench.settings.value;
+  const [cells, limit, most] = guess.solid ? (['hexes', solid.maxHexes, MOST_HEXES_OF_SOLIDS] as const) : (['quads', maxQuads, MOST_QUADS] as const);
+  if (guess.cells > limit) {
+    const size = `${about}${roughCount(guess.cells)} ${cells}, ${bytes(guess.bytes)}`;
+    return html`<span class="fault" data-cells=${guess.cells}>${size}: more than ${limit < most ? 'your limit of' : 'this page can hold,'} ${roughCount(limit)}. Raise the edge length${guess.solid ? '' : ', or use fewer levels'}.</span>`;
   }
-  return html`${about}<b data-cells=${guess.cells}>${roughCount(guess.cells)}</b> quads<small>${counted(guess.levels, 'level')}, ${bytes(guess.bytes)}</small>`;
+  return html`${about}<b data-cells=${guess.cells}>${roughCount(guess.cells)}</b> ${cells}<small>${memory(guess)}</small>`;
+}
+
+/** Levels, where there are any, and memory. */
+function memory({ levels, bytes: size }: Forecast): string {
+  return levels === null ? bytes(size) : `${counted(levels, 'level')}, ${bytes(size)}`;
 }
 
 /** What the work will add to what was asked for, and why. */
-function hexEstimate({ cells, bytes: memory, levels, added }: Forecast): TemplateResult {
+function hexEstimate(guess: Forecast): TemplateResult {
+  const { cells, added } = guess;
   const { families = 0, balance = 0, method = 0, conflicts = 0 } = added ?? {};
   const all = [[families, 'whole families'], [balance, 'grading'], [method, 'the method'], [conflicts, 'conflicts']] as const;
   const reasons = all
     .filter(([n]) => n > 0)
     .map(([n, why]) => `${roughCount(n)} for ${why}`);
-  return html`<b data-cells=${cells}>${roughCount(cells)}</b> hexes<small>${counted(levels, 'level')}, ${bytes(memory)}</small>
+  return html`<b data-cells=${cells}>${roughCount(cells)}</b> hexes<small>${memory(guess)}</small>
     ${reasons.length > 0 ? html`<small data-added>Refined beyond what is asked: ${reasons.join(', ')}</small>` : nothing}`;
 }
 

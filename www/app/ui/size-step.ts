@@ -1,14 +1,15 @@
 /** Step 2: how fine the whole mesh is. */
 
-import { html, nothing } from 'lit-html';
+import { html } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
-import { numberField, segmented, slider, toggle } from './controls.js';
+import { curvature, edgeLength, numberField, segmented, slider, toggle } from './controls.js';
 import { hexSizeStep } from './hex-size-step.js';
 import { icon } from './icons.js';
 import type { Page } from './page.js';
+import { solidSizeStep } from './solid-size-step.js';
 import { LIMITS } from '../model/settings.js';
 import { diagonal } from '../model/shape.js';
-import { count, counted, significant } from '../model/text.js';
+import { count, counted } from '../model/text.js';
 
 /** The slider spans these parts of the model's diagonal. */
 const FINEST = 1 / 2000;
@@ -16,7 +17,8 @@ const COARSEST = 1 / 4;
 
 export function sizeStep(page: Page): TemplateResult {
   const { workbench } = page;
-  if (workbench.makesHexes.value) return hexSizeStep(page);
+  if (workbench.job.value === 'solid') return solidSizeStep(page);
+  if (workbench.job.value === 'hexes') return hexSizeStep(page);
   const settings = workbench.settings.value;
   return html`
     ${segmented(
@@ -25,26 +27,22 @@ export function sizeStep(page: Page): TemplateResult {
       settings.by,
       (by) => workbench.edit({ by }),
     )}
-    ${settings.by === 'length' ? edgeLength(page) : levels(page)}
-    ${curvature(page)}
+    ${settings.by === 'length' ? everywhere(page) : levels(page)}
+    ${curvature(settings.curvature, (curvature) => workbench.edit({ curvature }))}
     <details class="more" ?open=${page.moreSize.value} @toggle=${(event: Event) => (page.moreSize.value = (event.target as HTMLDetailsElement).open)}>
       <summary>${icon('chevron')}Growth and limits</summary>
       ${further(page)}
     </details>`;
 }
 
-function edgeLength({ workbench }: Page): TemplateResult {
+function everywhere({ workbench }: Page): TemplateResult {
   const bounds = workbench.bounds.value;
   const length = (bounds && diagonal(bounds)) || 1;
   const { edgeLength: value } = workbench.settings.value;
-  const change = (edgeLength: number): void => workbench.edit({ edgeLength });
-  return html`
-    ${numberField({ label: 'No edge longer than', value, min: 0, open: true, unit: 'model units', change })}
-    ${slider({
-      label: 'Edge length', value, min: length * FINEST, max: length * COARSEST, logarithmic: true,
-      text: (v) => `${significant(v)} model units`, change,
-    })}
-    <div class="ends" aria-hidden="true"><span>finer</span><span>coarser</span></div>`;
+  return edgeLength({
+    label: 'No edge longer than', value, min: length * FINEST, max: length * COARSEST,
+    change: (edgeLength) => workbench.edit({ edgeLength }),
+  });
 }
 
 function levels({ workbench }: Page): TemplateResult {
@@ -54,22 +52,6 @@ function levels({ workbench }: Page): TemplateResult {
     ${numberField({ label: 'Refine everything this many times', value, ...LIMITS.levels, whole: true, step: 1, change })}
     ${slider({ label: 'Levels', value: Math.min(value, 6), min: 0, max: 6, step: 1, text: (v) => counted(v, 'level'), change })}
     <p class="hint">Each level splits a quad into four; the first turns any face into quads.</p>`;
-}
-
-function curvature({ workbench }: Page): TemplateResult {
-  const { curvature: value } = workbench.settings.value;
-  return html`
-    ${toggle('Follow curvature', value !== null, (on) => workbench.edit({ curvature: on ? LIMITS.curvature.usual : null }))}
-    ${value === null
-      ? nothing
-      : html`${numberField({
-          label: 'Turn of the surface along one edge, at most', value, ...pick(LIMITS.curvature), unit: 'degrees', step: 1,
-          change: (curvature) => workbench.edit({ curvature }),
-        })}`}`;
-}
-
-function pick({ min, max }: { min: number; max: number }): { min: number; max: number } {
-  return { min, max };
 }
 
 function further({ workbench }: Page): TemplateResult {

@@ -5,8 +5,10 @@ import type { TemplateResult } from 'lit-html';
 import { iconButton, segmented } from './controls.js';
 import type { Page } from './page.js';
 import { levelColour, mapGradient } from '../model/colouring.js';
+import { KINDS, lostOf } from '../model/features.js';
+import { isSolid } from '../model/job.js';
 import { levelCounts } from '../model/metrics.js';
-import { fixed } from '../model/text.js';
+import { fixed, significant } from '../model/text.js';
 import type { Axis } from './viewport.js';
 
 const DIRECTIONS: readonly { axis: Axis; label: string; says: string }[] = [
@@ -45,8 +47,12 @@ export function toolbar(page: Page): TemplateResult | typeof nothing {
 export function legend({ workbench, inspection, viewport }: Page): TemplateResult | typeof nothing {
   const mesh = workbench.result.value?.mesh;
   const colour = inspection.colour.value;
-  if (!mesh || workbench.shows.value !== 'mesh' || colour === 'plain' || !viewport.ready.value) return nothing;
+  if (!viewport.ready.value) return nothing;
+  if (workbench.shows.value === 'input') return workbench.solid.value ? featureLegend(KINDS) : nothing;
+  if (!mesh) return nothing;
+  if (colour === 'plain') return isSolid(mesh) && lostOf(mesh).length > 0 ? featureLegend([{ kind: 'lost', label: 'Not in the mesh' }]) : nothing;
   if (colour === 'level') {
+    if (isSolid(mesh)) return nothing;
     const levels = levelCounts(mesh.level).flatMap((cells, level) => (cells > 0 ? [level] : []));
     return html`<div class="legend" aria-label="Colours by level"><span>Level</span>
       ${levels.map((level) => html`<span class="chip"><i style="background:${levelColour(mesh, level)}"></i>${level}</span>`)}
@@ -54,7 +60,14 @@ export function legend({ workbench, inspection, viewport }: Page): TemplateResul
   }
   const info = inspection.info.value;
   const [low, high] = info.worst === 'low' ? info.range : [info.range[1], info.range[0]];
-  const text = (value: number): string => `${fixed(value, info.unit ? 0 : 1)}${info.unit}`;
+  const text = (value: number): string => `${info.metric === 'distance' ? significant(value, 2) : fixed(value, info.unit ? 0 : 1)}${info.unit}`;
   return html`<div class="legend" aria-label="Colours by ${info.label}"><span>${info.label}</span><span>${text(low)}</span>
     <i class="ramp" style="background:${mapGradient('quality')}"></i><span>${text(high)}</span></div>`;
+}
+
+/** What the lines on a solid stand for. */
+function featureLegend(kinds: typeof KINDS): TemplateResult {
+  return html`<div class="legend" aria-label="Features"><span>Features</span>
+    ${kinds.map(({ kind, label }) => html`<span class="chip"><i class=${kind === 'corner' ? 'dot' : ''} style="background:var(--feature-${kind})"></i>${label}</span>`)}
+  </div>`;
 }

@@ -1,11 +1,12 @@
 /** The bridge to the 3D view: signals in, picks and drags out. The page works without a view. */
 
 import { effect, signal, untracked } from '@preact/signals-core';
-import type { Colouring, DrawHexes, DrawMesh, View, ViewRegion } from '../view.js';
+import type { Colouring, DrawHexes, DrawMesh, View, ViewFeature, ViewRegion } from '../view.js';
 import { complaint } from '../model/complaint.js';
 import { colouring } from '../model/colouring.js';
 import { nearestAxis } from '../model/cutting.js';
-import { isHexes } from '../model/job.js';
+import { featuresOf, lostFeatures, lostOf } from '../model/features.js';
+import { isHexes, isSolid } from '../model/job.js';
 import type { Cells, Input } from '../model/job.js';
 import type { Vec3 } from '../model/settings.js';
 import { grown } from '../model/shape.js';
@@ -118,7 +119,7 @@ export class Viewport {
     this.#view = view;
     this.ready.value = true;
     this.#listen(view);
-    this.#stop = [this.#drawStyle(view), this.#drawMesh(view), this.#drawCut(view), this.#drawBox(view), this.#drawRegions(view)];
+    this.#stop = [this.#drawStyle(view), this.#drawMesh(view), this.#drawCut(view), this.#drawBox(view), this.#drawFeatures(view), this.#drawRegions(view)];
   }
 
   #listen(view: View): void {
@@ -175,7 +176,7 @@ export class Viewport {
       cutting.layers.value = hexes ? view.layers() : 0;
       cutting.bounds.value = hexes ? boundsOf(hexes.nodes) : null;
       // A box around a model shows nothing of what is in it before it is cut.
-      if (hexes && mesh && input?.surface && !cutting.isChosen) this.cutOpen();
+      if (hexes && mesh && !isSolid(mesh) && input?.surface && !cutting.isChosen) this.cutOpen();
       this.#cutAgain.value += 1;
     });
   }
@@ -215,6 +216,27 @@ export class Viewport {
       if (bounds && framed !== input) view.frameAll();
       framed = isBox ? input : null;
     });
+  }
+
+  /** What was found of a solid, over the surface; what the mesh does not show of it, over the mesh. */
+  #drawFeatures(view: View): () => void {
+    return effect(() => {
+      const features = this.#features();
+      this.#guard(() => view.setFeatures(features));
+    });
+  }
+
+  #features(): ViewFeature[] {
+    const { workbench } = this.#page;
+    const { solid, result, shows } = workbench;
+    if (shows.value === 'input') return solid.value ? featuresOf(solid.value) : [];
+    const made = result.value;
+    return made && isSolid(made.mesh) ? lostFeatures(lostOf(made.mesh), made.plan) : [];
+  }
+
+  /** Flies to a place of the model and what is `reach` around it. */
+  showPlace(place: Vec3, reach: number): void {
+    this.#view?.frameBox({ min: place.map((x) => x - reach) as Vec3, max: place.map((x) => x + reach) as Vec3 });
   }
 
   /** Draws; what cannot be drawn, such as a mesh too large for the graphics card, is said and harms nothing else. */

@@ -1,0 +1,62 @@
+/** What became of a solid in its mesh: its features, and how far the mesh is from it. */
+
+import { html, nothing } from 'lit-html';
+import type { TemplateResult } from 'lit-html';
+import type { HexedSolid } from 'hexmill';
+import { icon } from './icons.js';
+import type { Page } from './page.js';
+import { lostOf } from '../model/features.js';
+import type { Lost } from '../model/features.js';
+import type { Vec3 } from '../model/settings.js';
+import { diagonal } from '../model/shape.js';
+import { count, counted, significant } from '../model/text.js';
+
+/** Lost features listed. */
+const SHOWN = 8;
+/** What is shown around a lost feature, in parts of its size. */
+const AROUND = 1;
+
+export function featurePanel(page: Page, mesh: HexedSolid): TemplateResult {
+  const { features, euler, solidEuler } = mesh.result;
+  const lost = lostOf(mesh);
+  const kinds = [['Surfaces', features.surfaces], ['Curves', features.curves], ['Corners', features.corners]] as const;
+  const isAlike = euler === solidEuler;
+  return html`<section aria-labelledby="features-title" data-lost=${lost.length}>
+    <h2 id="features-title">Features</h2>
+    <dl class="stats">
+      ${kinds.map(([name, { found, captured }]) => html`<div class=${captured < found ? 'bad' : ''}><dt>${name}</dt><dd>${count(captured)}<small> of ${count(found)}</small></dd></div>`)}
+    </dl>
+    ${lost.length === 0
+      ? html`<ul class="checks"><li class="good">${icon('check')}The mesh shows every feature</li></ul>`
+      : html`<ol class="lost">${lost.slice(0, SHOWN).map((one) => item(page, one))}</ol>
+          ${lost.length > SHOWN ? html`<p class="hint">and ${counted(lost.length - SHOWN, 'smaller one')}</p>` : nothing}`}
+    ${isAlike
+      ? nothing
+      : html`<ul class="checks"><li class="bad">${icon('warn')}Of another kind than the solid: Euler number ${significant(euler)}, not ${significant(solidEuler)}. Lower the edge length.</li></ul>`}
+  </section>`;
+}
+
+const NAMES = { curve: 'Curve', surface: 'Surface', body: 'Body' } as const;
+
+function item({ viewport }: Page, { what, id, fate, place, size }: Lost): TemplateResult {
+  const where = place.map((x) => significant(x, 3)).join(', ');
+  return html`<li><button class="text-button" type="button" title="Show it, at ${where}" @click=${() => viewport.showPlace(place as Vec3, AROUND * size)}>
+    <i></i><span>${NAMES[what]} ${id + 1}</span><small>${fate}, ${what === 'curve' ? 'length' : 'size'} ${significant(size, 3)} at ${where}</small></button></li>`;
+}
+
+/** Distances that are less than this part of the diagonal are none: there they are rounded off. */
+const NONE = 1e-12;
+
+/** Both ways: the mesh may be near the solid and yet miss a part of it. */
+export function distancePanel({ workbench }: Page, { result }: HexedSolid): TemplateResult {
+  const { meshToSurface, surfaceToMesh } = result.distance;
+  const bounds = workbench.bounds.value;
+  const length = (bounds && diagonal(bounds)) || 1;
+  const rows = [['From the mesh, at most', meshToSurface.max], ['To the mesh, at most', surfaceToMesh.max], ['On average', Math.max(meshToSurface.mean, surfaceToMesh.mean)]] as const;
+  const text = (value: number): TemplateResult =>
+    value < NONE * length ? html`none` : html`${significant(value, 3)}<small title="Of the model’s diagonal">${significant((100 * value) / length, 2)} %</small>`;
+  return html`<section aria-labelledby="distance-title">
+    <h2 id="distance-title">Distance to the input</h2>
+    <dl class="facts">${rows.map(([name, value]) => html`<dt>${name}</dt><dd>${text(value)}</dd>`)}</dl>
+  </section>`;
+}

@@ -1,0 +1,191 @@
+import type { Bounds, Vector } from './options.js';
+import type { Background } from './solid-options.js';
+
+/** What is known of a solid before it is meshed. Lengths are in model units. */
+export interface SolidPlan {
+  /** What was found in the surface, and what was mended. */
+  found: FoundSolid;
+  bounds: Bounds;
+  volume: number;
+  area: number;
+  /** Points where curves end. */
+  corners: Vector[];
+  curves: SolidCurve[];
+  surfaces: SolidSurface[];
+  /** About how many hexes the mesh will have; null without an edge length. */
+  hexes: number | null;
+  /** Peak memory of the work, about; null without an edge length. */
+  bytes: number | null;
+}
+
+/** A line that the mesh keeps: where surfaces meet, or a crease within one. */
+export interface SolidCurve {
+  /** From start to end; a closed curve comes back to its first point. */
+  points: Vector[];
+  /** The corners at its start and end, by their places in `corners`; null for a closed curve that has none. */
+  corners: [number, number] | null;
+  /** The surfaces left and right of it seen from outside, by their places in `surfaces`. */
+  surfaces: [number, number];
+  /** Degrees from surface to surface inside the solid; less than 180 is convex. */
+  interiorAngle: number;
+  length: number;
+  isStraight: boolean;
+}
+
+/** A part of the solid's boundary between curves. */
+export interface SolidSurface {
+  /** Its shape; the normal is outward, and which way the axis of an extruded surface points is arbitrary. */
+  class: { kind: 'planar'; normal: Vector } | { kind: 'cylindrical'; axis: Vector } | { kind: 'general' };
+  area: number;
+  /** The curves that bound it or end in it, by their places in `curves`. */
+  curves: number[];
+  bounds: Bounds;
+  /** Which of the disjoint bodies it belongs to. */
+  body: number;
+}
+
+/** What was found in a surface that bounds a solid, and what was mended. */
+export interface FoundSolid {
+  /** Points that were welded to others with the same coordinates. */
+  weldedPoints: number;
+  /** Points that were welded to others nearer than a millionth of the diagonal. */
+  closePoints: number;
+  /** Triangles that were dropped because they had a point twice. */
+  degenerateTriangles: number;
+  /** Triangles that were dropped because others were the same. */
+  duplicateTriangles: number;
+  /** Triangles that were dropped in pairs that lay on each other: walls without thickness. */
+  wallTriangles: number;
+  /** Holes that were filled: the middle of each, and the edges of its rim. */
+  filledHoles: { at: Vector; edges: number }[];
+  /** Triangles that were turned around. */
+  turnedTriangles: number;
+  /** Triangles without height whose longest edge was flipped. */
+  flippedTriangles: number;
+  /** Points at which several parts touched, and were parted. */
+  splitPoints: number;
+  /** Edges of the file's polylines and creases that are none of the surface. */
+  unmatchedEdges: number;
+  /** Feature edges that were taken for noise. */
+  noiseEdges: number;
+  points: number;
+  triangles: number;
+  /** Disjoint bodies. */
+  bodies: number;
+  /** Voids within bodies. */
+  voids: number;
+  corners: number;
+  curves: number;
+  surfaces: number;
+  /** Euler characteristic of the boundary. */
+  euler: number;
+}
+
+/** What was done to fill a solid with hexes, and what came of it. */
+export interface SolidReport {
+  solid: FoundSolid;
+  /** What was done to each of its bodies. */
+  bodies: BodyReport[];
+  /** What came of all of them. */
+  result: SolidResult;
+}
+
+/** What was done to fill one body. */
+export interface BodyReport {
+  /** The middle of its box. */
+  place: Vector;
+  /** The background that was chosen, and what it captures of the body's planar faces, from 0 to 1. */
+  choice: { kind: Background; gridCapture: number; sweptCapture: number | null; worstQuad: number | null };
+  /** The candidates for the direction of a sweep, the best first. */
+  directions: { direction: Vector; area: number; surfaceCapture: number; volumeCapture: number; score: number }[];
+  /** What came of each attempt. */
+  attempts: SolidAttempt[];
+  /** Which attempt was kept; null for a body that is too thin for any hex, and not in the mesh. */
+  kept: number | null;
+}
+
+/** What came of one attempt. What was not done, since the attempt was worse than one before, is left out or null. */
+export interface SolidAttempt {
+  background: Background;
+  /** How far the lines of a grid were moved, as a share of an edge along each axis. */
+  shift: Vector;
+  /** Hexes of the background by level, from the coarsest. */
+  levels: number[];
+  /** Whether what is thinner than cells was made as thick as one. */
+  keepThin: boolean;
+  /** The hexes of the background that stand for the body. */
+  core: { background: number; cells: number; euler: number; solidEuler: number; volumeRatio: number };
+  features: FeatureReport | null;
+  /** Layers of hexes that were put under the boundary where cells would be flat there. */
+  sheets?: { sheets: number; collars: number; hexes: number; takenBack: number; pinched: number };
+  /** How the nodes came to the solid: those that are not there, and the farthest of them. */
+  fit?: { sweeps: number; off: number; farthest: number; place: Vector | null; drawnIn: number };
+  hexes?: number;
+  /** The least scaled Jacobian. */
+  worst?: number;
+  /** The mean scaled Jacobian. */
+  mean?: number;
+  distance?: SurfaceDistances;
+}
+
+/** What a mesh shows of its solid, and how near it is. */
+export interface SolidResult {
+  /** Euler characteristic of the mesh's boundary. */
+  euler: number;
+  /** That of the solid's boundary: where they differ the mesh has other holes than the solid. */
+  solidEuler: number;
+  /** Bodies that are too thin for any hex, and not in the mesh. */
+  lostBodies: LostFeature[];
+  features: FeatureReport;
+  hexes: number;
+  /** The least scaled Jacobian. */
+  worst: number;
+  /** The mean scaled Jacobian. */
+  mean: number;
+  distance: SurfaceDistances;
+}
+
+/** Between a mesh's boundary and a surface, both ways. */
+export interface SurfaceDistances {
+  meshToSurface: DistanceSummary;
+  surfaceToMesh: DistanceSummary;
+}
+
+/** What became of the solid's features. */
+export interface FeatureReport {
+  corners: Captured;
+  curves: Captured;
+  surfaces: Captured;
+  /** Curves that shrank to a corner. */
+  contracted: LostFeature[];
+  /** Curves that nothing stands for. */
+  suppressed: LostFeature[];
+  /** Surfaces that no face stands for. */
+  lostSurfaces: LostFeature[];
+}
+
+/** How many features of a kind the solid has, and how many of them the mesh shows. */
+export interface Captured {
+  found: number;
+  captured: number;
+}
+
+/** A feature, or a body, that the mesh does not show. */
+export interface LostFeature {
+  /** Its place in `curves` or `surfaces` of the plan for the same options. */
+  id: number;
+  /** The middle of it. */
+  place: Vector;
+  /** The length of a curve, the root of a surface's area, or the diagonal of a body. */
+  size: number;
+}
+
+/** How far samples of one surface are from another. */
+export interface DistanceSummary {
+  max: number;
+  mean: number;
+  rms: number;
+  /** Where the farthest is. */
+  farthest: Vector;
+  samples: number;
+}
