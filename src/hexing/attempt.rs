@@ -2,7 +2,7 @@
 
 use super::background::{Failure, OctreeMesh};
 use super::core::{Core, CoreOptions, CoreReport, core};
-use super::correspondence::correspond;
+use super::correspondence::{Correspondence, Reduction, correspond};
 use super::fit::{FitOptions, fit};
 use super::ground::{Plan, Site};
 use super::misses::{FineCells, boundary_triangles, misses, too_far};
@@ -11,7 +11,7 @@ use super::report::{AttemptReport, FeatureReport, FitCounts, MeshedReport, Sheet
 use super::separate::separate;
 use super::sheets::insert_sheets;
 use crate::mesh::{Distances, HexMesh, NodeId, Triangles};
-use crate::solid::{SolidModel, SurfaceId};
+use crate::solid::{CurveId, SolidModel, SurfaceId};
 use crate::{Cancelled, Monitor};
 
 /// A mesh of a body and where it stands for what.
@@ -20,6 +20,10 @@ pub(super) struct Meshed {
     pub(super) mesh: HexMesh,
     /// All boundary quads, outward, each with the surface that it stands for.
     pub(super) faces: Vec<([NodeId; 4], SurfaceId)>,
+    /// All boundary edges on curves, the lesser node first, sorted.
+    pub(super) edges: Vec<([NodeId; 2], CurveId)>,
+    /// What stands for what was given up.
+    pub(super) reduction: Reduction,
     /// What it missed and smaller cells may show.
     pub(super) failures: Vec<Failure>,
 }
@@ -87,7 +91,8 @@ pub(super) fn attempt(
     });
     let far = options.max_distance.map(|limit| too_far(&mesh, solid, limit, monitor)).transpose()?;
     let failures = misses(site, &cut, &on.reduction, far.unwrap_or_default(), &cells);
-    Ok((report, Some(Meshed { mesh, faces: on.faces, failures })))
+    let Correspondence { faces, edges, reduction, .. } = on;
+    Ok((report, Some(Meshed { mesh, faces, edges, reduction, failures })))
 }
 
 /// The core; where it is not of the solid's kind, that with what is thinner than cells, if it is nearer. Is it this one?

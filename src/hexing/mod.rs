@@ -21,6 +21,7 @@ mod misses;
 mod options;
 mod pipeline;
 mod report;
+mod second_order;
 mod separate;
 
 pub use background::Background;
@@ -32,3 +33,4 @@ pub use report::{
     AttemptReport, BodyReport, Captured, FeatureReport, FitCounts, HexingReport, LostFeature, MeshedReport,
     ResultReport, SheetCounts,
 };
+pub use second_order::SecondOrderReport;

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::background::{Background, BackgroundError};
 use crate::Cancelled;
+use crate::mesh::SecondOrderHex;
 use crate::sizing::Region;
 use crate::solid::{SolidError, SolidOptions};
 
@@ -27,6 +28,8 @@ pub struct HexingOptions {
     pub max_levels: u8,
     /// Refuse a background mesh of more hexes than this.
     pub max_hexes: u64,
+    /// Hexes of the second order, if wanted: those that the mesh has with more nodes.
+    pub second_order: Option<SecondOrderHex>,
 }
 
 impl HexingOptions {
@@ -56,6 +59,7 @@ impl Default for HexingOptions {
             max_distance: None,
             max_levels: 2,
             max_hexes: 4_000_000,
+            second_order: None,
         }
     }
 }

@@ -5,6 +5,7 @@
 //! 3. Its core (`core`, 5.1), where the solid's features are on the core's boundary (`correspondence`, 5.2), sheets and
 //!    the fit (`sheets`, `fit`, section 6): one `attempt`.
 //! 4. Where that missed something, another attempt; the best is kept.
+//! 5. Hexes of the second order, if asked for (`second_order`).
 //!
 //! **Promises.** The mesh conforms, its boundary is a 2-manifold, every hex has a positive Jacobian, at its corners and
 //! inside. What of the solid it does not show is reported with its place.
@@ -14,10 +15,11 @@ use super::body::{Best, Body, mesh_body};
 use super::ground::coarsest;
 use super::groups::{body_tags, sides_of, surface_groups};
 use super::options::{HexingError, HexingOptions, validate};
+use super::second_order::SecondOrderBodies;
 use super::report::{BodyReport, HexingReport, LostFeature, ResultReport};
-use crate::mesh::{HexMesh, NodeId, PolygonMesh};
+use crate::mesh::{HexMesh, NodeId, PolygonMesh, SecondOrder, SecondOrderHex};
 use crate::solid::{CurveId, SolidModel, SurfaceId};
-use crate::{Monitor, Stage};
+use crate::{Cancelled, Monitor, Stage};
 
 /// A mesh of a solid.
 #[derive(Clone, Debug)]
@@ -27,6 +29,8 @@ pub struct HexedSolid {
     pub mesh: HexMesh,
     /// All boundary quads, outward, each with the surface that it stands for.
     pub faces: Vec<([NodeId; 4], SurfaceId)>,
+    /// What makes the hexes hexes of the second order, if that was asked for.
+    pub second_order: Option<SecondOrder>,
     /// What was done, and what came of it.
     pub report: HexingReport,
 }
@@ -67,20 +71,20 @@ pub fn hex_solid(
     validate(options)?;
     let (solid, found) = SolidModel::new(surface, &options.solid(), monitor)?;
     check_size(&solid, coarsest(options), options.max_hexes)?;
-    let mut whole = Whole::new();
+    let mut whole = Whole::new(options.second_order);
     if solid.body_count() == 1 {
         let all = |count: usize| 0..count as u32;
         let (curves, surfaces) = (all(solid.curves().len()), all(solid.surfaces().len()));
         let ids = (curves.map(CurveId).collect(), surfaces.map(SurfaceId).collect());
-        whole.add(0, &solid, ids, mesh_body(&solid, options, monitor)?);
+        whole.add(0, &solid, ids, mesh_body(&solid, options, monitor)?, monitor)?;
     } else {
         for body in 0..solid.body_count() as u32 {
             monitor.checkpoint(SOLID, 1.0)?;
             let alone = solid.body(body, monitor)?;
-            whole.add(body, &alone, ids_of(&solid, body), mesh_body(&alone, options, monitor)?);
+            whole.add(body, &alone, ids_of(&solid, body), mesh_body(&alone, options, monitor)?, monitor)?;
         }
     }
-    let Whole { mut mesh, faces, body_of, bodies, result } = whole;
+    let Whole { mut mesh, faces, body_of, bodies, result, second_order } = whole;
     if mesh.hexes.is_empty() {
         return Err(HexingError::NothingLeft { edge_length: options.edge_length });
     }
@@ -88,7 +92,10 @@ pub fn hex_solid(
     if bodies.len() > 1 {
         mesh.tags = body_tags(bodies.len(), body_of);
     }
-    Ok(HexedSolid { mesh, faces, report: HexingReport { solid: found, bodies, result } })
+    let (second_order, of_second_order) =
+        second_order.map(|bodies| bodies.joined(mesh.positions.len())).unzip();
+    let report = HexingReport { solid: found, bodies, result, second_order: of_second_order };
+    Ok(HexedSolid { mesh, faces, second_order, report })
 }
 
 /// The curves and surfaces of a body as it has them alone, which is in the same order.
@@ -108,16 +115,31 @@ struct Whole {
     body_of: Vec<u32>,
     bodies: Vec<BodyReport>,
     result: ResultReport,
+    /// Of the second order, if that is asked for.
+    second_order: Option<SecondOrderBodies>,
 }
 
 impl Whole {
-    fn new() -> Self {
-        let (mesh, result) = (HexMesh::default(), ResultReport::none());
-        Self { mesh, faces: Vec::new(), body_of: Vec::new(), bodies: Vec::new(), result }
+    fn new(second_order: Option<SecondOrderHex>) -> Self {
+        Self {
+            mesh: HexMesh::default(),
+            faces: Vec::new(),
+            body_of: Vec::new(),
+            bodies: Vec::new(),
+            result: ResultReport::none(),
+            second_order: second_order.map(SecondOrderBodies::new),
+        }
     }
 
     /// Adds a body whose curves and surfaces have other ids in the solid.
-    fn add(&mut self, body: u32, solid: &SolidModel, ids: (Vec<CurveId>, Vec<SurfaceId>), made: Body) {
+    fn add(
+        &mut self,
+        body: u32,
+        solid: &SolidModel,
+        ids: (Vec<CurveId>, Vec<SurfaceId>),
+        made: Body,
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
         let Body { best, mut report } = made;
         let (curves, surfaces) = ids;
         let features = report.attempts.iter_mut().filter_map(|attempt| attempt.features.as_mut());
@@ -128,6 +150,9 @@ impl Whole {
                 let (features, mesh) =
                     kept.features.as_ref().zip(kept.mesh.as_ref()).expect("a mesh is kept");
                 self.result.add(&kept.core, features, mesh);
+                if let Some(second_order) = &mut self.second_order {
+                    second_order.add(&meshed, solid, self.mesh.positions.len(), monitor)?;
+                }
                 self.append(body, meshed.mesh, meshed.faces, &surfaces);
             }
             None => {
@@ -137,6 +162,7 @@ impl Whole {
             }
         }
         self.bodies.push(report);
+        Ok(())
     }
 
     fn append(

@@ -7,6 +7,7 @@ use super::core::CoreReport;
 use super::correspondence::{CurveFate, LostCurve, LostSurface, Reduction};
 use super::direction::DirectionScore;
 use super::fit::FitReport;
+use super::second_order::SecondOrderReport;
 use super::sheets::SheetReport;
 use crate::mesh::Distances;
 use crate::solid::{CornerId, CurveId, SolidModel, SolidReport, SurfaceId};
@@ -21,6 +22,9 @@ pub struct HexingReport {
     pub bodies: Vec<BodyReport>,
     /// What came of all of them.
     pub result: ResultReport,
+    /// What came of the second order, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub second_order: Option<SecondOrderReport>,
 }
 
 /// What was done to mesh one body.

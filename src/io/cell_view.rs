@@ -8,13 +8,13 @@ use super::tag_numbers::cell_numbers;
 use super::{AnyMesh, Document, Format, WriteError};
 use crate::geometry::Point;
 use crate::mesh::topology::{hex_of, side_nodes};
-use crate::mesh::{BoundaryGroups, FaceId, NodeId, PolygonMesh, Tags};
+use crate::mesh::{BoundaryGroups, FaceId, NodeId, PolygonMesh, SecondOrder, Tags};
 
 /// A document that was checked: every node id is in range, every coordinate is finite, and the columns
 /// have an entry a cell or none.
 pub(super) struct CellView<'a> {
     /// Coordinates of the nodes.
-    pub positions: &'a [Point],
+    pub positions: Cow<'a, [Point]>,
     /// The cells.
     pub cells: Cells<'a>,
     /// Names of cells.
@@ -39,6 +39,28 @@ pub(super) enum Cells<'a> {
     Quads(&'a [[NodeId; 4]]),
     /// Hexahedra.
     Hexes(&'a [[NodeId; 8]]),
+    /// Hexahedra of the second order.
+    SecondOrder(&'a SecondOrder),
+}
+
+/// Boundary faces of hexes that are in groups, all with the same number of nodes.
+pub(super) struct BoundaryFaces {
+    /// How many nodes a face has.
+    pub size: usize,
+    /// Those of all faces, anticlockwise seen from outside; of the second order those on the edges and inside follow.
+    pub nodes: Vec<NodeId>,
+}
+
+impl BoundaryFaces {
+    /// Number of faces.
+    pub fn len(&self) -> usize {
+        self.nodes.len() / self.size
+    }
+
+    /// The nodes of a face.
+    pub fn face(&self, k: usize) -> &[NodeId] {
+        &self.nodes[k * self.size..][..self.size]
+    }
 }
 
 impl<'a> Cells<'a> {
@@ -48,6 +70,7 @@ impl<'a> Cells<'a> {
             Self::Polygons(mesh) => mesh.face_count(),
             Self::Quads(quads) => quads.len(),
             Self::Hexes(hexes) => hexes.len(),
+            Self::SecondOrder(hexes) => hexes.nodes.len() / hexes.hex.nodes(),
         }
     }
 
@@ -57,6 +80,7 @@ impl<'a> Cells<'a> {
             Self::Polygons(mesh) => mesh.face(cell),
             Self::Quads(quads) => &quads[cell],
             Self::Hexes(hexes) => &hexes[cell],
+            Self::SecondOrder(hexes) => hexes.nodes_of(cell),
         }
     }
 
@@ -66,25 +90,31 @@ impl<'a> Cells<'a> {
             Self::Polygons(mesh) => &mesh.corners,
             Self::Quads(quads) => quads.as_flattened(),
             Self::Hexes(hexes) => hexes.as_flattened(),
+            Self::SecondOrder(hexes) => &hexes.nodes,
         }
     }
 
     /// True if the cells are hexahedra.
     pub fn are_hexes(self) -> bool {
-        matches!(self, Self::Hexes(_))
+        matches!(self, Self::Hexes(_) | Self::SecondOrder(_))
     }
 }
 
 impl<'a> CellView<'a> {
     /// The view of `document`, which must hold together.
     pub fn new(document: &'a Document, format: Format) -> Result<Self, WriteError> {
-        let (cells, groups) = match &document.mesh {
-            AnyMesh::Polygons(mesh) => (Cells::Polygons(mesh), &*NO_GROUPS),
-            AnyMesh::Quads(mesh) => (Cells::Quads(&mesh.quads), &*NO_GROUPS),
-            AnyMesh::Hexes(mesh) => (Cells::Hexes(&mesh.hexes), &mesh.groups),
+        let Document { mesh, tags, level, parent, second_order, .. } = document;
+        let (cells, groups) = match (mesh, second_order) {
+            (AnyMesh::Polygons(mesh), _) => (Cells::Polygons(mesh), &*NO_GROUPS),
+            (AnyMesh::Quads(mesh), _) => (Cells::Quads(&mesh.quads), &*NO_GROUPS),
+            (AnyMesh::Hexes(mesh), None) => (Cells::Hexes(&mesh.hexes), &mesh.groups),
+            (AnyMesh::Hexes(mesh), Some(hexes)) => (Cells::SecondOrder(hexes), &mesh.groups),
         };
-        let Document { mesh, tags, level, parent, .. } = document;
-        let view = Self { positions: mesh.positions(), cells, tags, level, parent, groups };
+        let positions = match second_order {
+            Some(hexes) => Cow::Owned([mesh.positions(), &hexes.positions].concat()),
+            None => Cow::Borrowed(mesh.positions()),
+        };
+        let view = Self { positions, cells, tags, level, parent, groups };
         view.check().map_err(|(code, message)| refuse_writing(format, code, message))?;
         Ok(view)
     }
@@ -120,10 +150,19 @@ impl<'a> CellView<'a> {
         Ok(())
     }
 
-    /// The nodes of the boundary faces that are in groups, anticlockwise seen from outside.
-    pub fn boundary_faces(&self) -> Vec<[NodeId; 4]> {
-        let Cells::Hexes(hexes) = self.cells else { return Vec::new() };
-        self.groups.sides().iter().map(|&side| side_nodes(hexes, side)).collect()
+    /// The boundary faces that are in groups.
+    pub fn boundary_faces(&self) -> BoundaryFaces {
+        let sides = self.groups.sides().iter();
+        match self.cells {
+            Cells::Hexes(hexes) => {
+                BoundaryFaces { size: 4, nodes: sides.flat_map(|&side| side_nodes(hexes, side)).collect() }
+            }
+            Cells::SecondOrder(hexes) => BoundaryFaces {
+                size: hexes.hex.nodes_of_face(),
+                nodes: sides.flat_map(|&side| hexes.nodes_of_side(side)).collect(),
+            },
+            Cells::Polygons(_) | Cells::Quads(_) => BoundaryFaces { size: 4, nodes: Vec::new() },
+        }
     }
 
     /// What is known of each cell, and after it the same of the hex of each boundary face that is in a group.

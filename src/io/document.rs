@@ -1,7 +1,7 @@
 //! What a file holds, whatever its format.
 
 use crate::geometry::Point;
-use crate::mesh::{FaceId, HexMesh, PolygonMesh, QuadMesh, Tags};
+use crate::mesh::{FaceId, HexMesh, PolygonMesh, QuadMesh, SecondOrder, Tags};
 use crate::refine::RefinedQuads;
 use crate::refine::hex::RefinedHexes;
 
@@ -55,6 +55,8 @@ pub struct Document {
     pub level: Vec<u8>,
     /// The cell of the input that each cell is part of.
     pub parent: Vec<FaceId>,
+    /// What makes the hexes hexes of the second order; only written.
+    pub second_order: Option<SecondOrder>,
     /// Faces in a file of hexes that are no boundary faces of these, and were left out.
     pub dropped_faces: usize,
 }
@@ -67,7 +69,7 @@ impl Document {
             AnyMesh::Hexes(mesh) => std::mem::take(&mut mesh.tags),
             AnyMesh::Quads(_) => Tags::default(),
         };
-        Self { mesh, tags, level: Vec::new(), parent: Vec::new(), dropped_faces: 0 }
+        Self { mesh, tags, level: Vec::new(), parent: Vec::new(), second_order: None, dropped_faces: 0 }
     }
 
     /// The faces of the document as a surface with its tags, or `None` if it holds hexes.

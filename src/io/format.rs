@@ -55,6 +55,11 @@ impl Format {
         self.is_written() && self != Self::Obj
     }
 
+    /// Are hexes of the second order written in this format?
+    pub fn takes_second_order(self) -> bool {
+        matches!(self, Self::Vtu | Self::Vtk | Self::Msh | Self::Inp)
+    }
+
     /// The format of a file extension, in any case, without the dot. `medit` is taken for `mesh`.
     pub fn from_extension(extension: &str) -> Option<Self> {
         let lower = extension.to_ascii_lowercase();

@@ -34,6 +34,8 @@ pub(super) mod code {
     pub const NO_CELLS: &str = "no-cells";
     /// The mesh has cells that the format cannot say.
     pub const FORMAT_HOLDS_NO_POLYGONS: &str = "format-holds-no-polygons";
+    /// The format holds no hexes of the second order.
+    pub const FORMAT_HOLDS_NO_SECOND_ORDER: &str = "format-holds-no-second-order";
     /// More nodes, cells or bytes than the format can number.
     pub const TOO_LARGE: &str = "too-large";
 }

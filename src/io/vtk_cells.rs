@@ -11,6 +11,7 @@ use super::scalars::Column;
 use super::tag_interner::CellTags;
 use super::tag_numbers::Names;
 use super::{Format, ReadError};
+use crate::mesh::SecondOrderHex;
 
 /// Cell data array of refinement levels.
 pub(super) const LEVEL: &str = "Level";
@@ -24,12 +25,25 @@ pub(super) const TAG: &str = "Tag";
 const TAG_ARRAYS: [&str; 5] = [TAG, "gmsh:physical", "medit:ref", "CellEntityIds", "MaterialIds"];
 
 /// VTK's type of a quad.
-pub(super) const QUAD: u8 = 9;
+const QUAD: u8 = 9;
+
+/// VTK's type of a face of hexes with so many nodes.
+pub(super) fn face_type(size: usize) -> u8 {
+    match size {
+        4 => QUAD,
+        8 => 23,
+        _ => 28,
+    }
+}
 
 /// VTK's type of a cell.
 pub(super) fn cell_type(cells: Cells<'_>, cell: usize) -> u8 {
     match cells {
         Cells::Hexes(_) => 12,
+        Cells::SecondOrder(hexes) => match hexes.hex {
+            SecondOrderHex::Hex20 => 25,
+            SecondOrderHex::Hex27 => 29,
+        },
         Cells::Quads(_) => QUAD,
         Cells::Polygons(mesh) => match mesh.face(cell).len() {
             3 => 5,

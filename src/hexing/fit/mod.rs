@@ -37,7 +37,7 @@ use inflate::inflate;
 use progress::Part;
 use pull::{Course, pull};
 use spread::chains;
-use target::{OnSolid, Target};
+pub(super) use target::{OnSolid, Target};
 use unlock::unlock;
 
 const FITTING: Stage = Stage("fitting");

@@ -6,14 +6,14 @@ use crate::solid::{SolidModel, SurfaceClass, SurfaceId};
 
 /// The point of a corner, curve or surface that is nearest to a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Foot {
-    pub(super) point: Point,
+pub(in super::super) struct Foot {
+    pub(in super::super) point: Point,
     /// The unit normal of a surface, the unit tangent of a curve.
-    pub(super) direction: Point,
+    pub(in super::super) direction: Point,
 }
 
 /// Finds feet.
-pub(super) trait Target: Sync {
+pub(in super::super) trait Target: Sync {
     /// The foot of a node at `p`; `None` for nodes that are inside.
     fn foot(&self, anchor: Anchor, p: Point) -> Option<Foot>;
 
@@ -27,7 +27,7 @@ pub(super) trait Target: Sync {
 const FLAT: f64 = 1e-9;
 
 /// A solid, of which some surfaces stand for others.
-pub(super) struct OnSolid<'a> {
+pub(in super::super) struct OnSolid<'a> {
     solid: &'a SolidModel,
     reduction: &'a Reduction,
     /// The plane of each flat surface that stands for itself alone: feet there need no search, and may lie beyond the
@@ -41,7 +41,7 @@ struct Plane {
 }
 
 impl<'a> OnSolid<'a> {
-    pub(super) fn new(solid: &'a SolidModel, reduction: &'a Reduction) -> Self {
+    pub(in super::super) fn new(solid: &'a SolidModel, reduction: &'a Reduction) -> Self {
         let planes =
             (0..solid.surfaces().len()).map(SurfaceId::new).map(|s| plane(solid, reduction, s)).collect();
         Self { solid, reduction, planes }

@@ -27,12 +27,25 @@ impl Shape {
                 let mesh = QuadMesh { positions: view.positions.to_vec(), quads: quads.to_vec() };
                 Self::of_faces(&mesh, set, with_edges)
             }
-            Cells::Hexes(hexes) => {
-                let (quads, cells): (Vec<_>, Vec<_>) = hex_boundary(hexes).into_iter().unzip();
-                let mesh = QuadMesh { positions: view.positions.to_vec(), quads };
-                Self::of_faces(&mesh, |face| set(cells[face].index()), with_edges)
+            Cells::Hexes(hexes) => Self::of_hexes(view, hexes, set, with_edges),
+            Cells::SecondOrder(hexes) => {
+                let corners = |h: usize| std::array::from_fn(|c| hexes.nodes_of(h)[c]);
+                let corners: Vec<[NodeId; 8]> = (0..view.cells.len()).map(corners).collect();
+                Self::of_hexes(view, &corners, set, with_edges)
             }
         }
+    }
+
+    /// The boundary of hexes, with straight edges.
+    fn of_hexes(
+        view: &CellView<'_>,
+        hexes: &[[NodeId; 8]],
+        set: impl Fn(usize) -> u32,
+        with_edges: bool,
+    ) -> Self {
+        let (quads, cells): (Vec<_>, Vec<_>) = hex_boundary(hexes).into_iter().unzip();
+        let mesh = QuadMesh { positions: view.positions.to_vec(), quads };
+        Self::of_faces(&mesh, |face| set(cells[face].index()), with_edges)
     }
 
     fn of_faces(mesh: &impl Faces, set: impl Fn(usize) -> u32, with_edges: bool) -> Self {

@@ -14,8 +14,12 @@ const NUMBER_WIDTH: usize = 20;
 /// Characters of a name that Abaqus reads.
 const NAME_WIDTH: usize = 80;
 
-/// Numbers on a line of an element set.
+/// Numbers on a line of an element or an element set.
 const PER_LINE: usize = 16;
+
+/// The order of the nodes of C3D27, as places in VTK's: the one inside stands before those on faces.
+const IN_ORDER: [usize; 27] =
+    [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 26, 24, 25, 22, 21, 23, 20];
 
 /// The file as bytes: the same for any number of threads.
 pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
@@ -31,8 +35,11 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
         }
         line.word("\n");
     });
-    let kinds: &[(usize, &str)] =
-        if view.cells.are_hexes() { &[(8, "C3D8")] } else { &[(4, "S4"), (3, "S3")] };
+    let kinds: &[(usize, &str)] = if view.cells.are_hexes() {
+        &[(8, "C3D8"), (20, "C3D20"), (27, "C3D27")]
+    } else {
+        &[(4, "S4"), (3, "S3")]
+    };
     for &(size, kind) in kinds {
         write_elements(&mut file, &view, size, kind);
     }
@@ -60,8 +67,12 @@ fn write_elements(file: &mut Text, view: &CellView<'_>, size: usize, kind: &str)
     file.word("*ELEMENT, TYPE=").word(kind).word("\n");
     file.items(members.len(), |line, index| {
         line.integer(members[index] + 1);
-        for node in cells.nodes(members[index]) {
-            line.word(", ").integer(u64::from(node.0) + 1);
+        let nodes = cells.nodes(members[index]);
+        for k in 0..nodes.len() {
+            // A line that ends with a comma goes on.
+            line.word(if k > 0 && (k + 1) % PER_LINE == 0 { ",\n" } else { ", " });
+            let node = nodes[if nodes.len() < IN_ORDER.len() { k } else { IN_ORDER[k] }];
+            line.integer(u64::from(node.0) + 1);
         }
         line.word("\n");
     });

@@ -28,6 +28,10 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
             write_cells(&mut file, &view, &references, "Hexahedra", 8);
             write_boundary_faces(&mut file, &view);
         }
+        Cells::SecondOrder(_) => {
+            let message = "MEDIT is written with hexes of eight nodes only: write VTU, VTK, MSH or INP";
+            return Err(refuse_writing(Format::Medit, code::FORMAT_HOLDS_NO_SECOND_ORDER, message));
+        }
         Cells::Quads(_) => write_cells(&mut file, &view, &references, "Quadrilaterals", 4),
         Cells::Polygons(mesh) => {
             write_cells(&mut file, &view, &references, "Triangles", 3);
@@ -68,12 +72,12 @@ fn write_cells(file: &mut Text, view: &CellView<'_>, references: &[i32], section
 /// The boundary faces of hexes that are in groups.
 fn write_boundary_faces(file: &mut Text, view: &CellView<'_>) {
     let (faces, references) = (view.boundary_faces(), cell_numbers(view.groups.tags()));
-    if faces.is_empty() {
+    if faces.len() == 0 {
         return;
     }
     file.word("\nQuadrilaterals\n").integer(faces.len()).word("\n");
     file.items(faces.len(), |line, face| {
-        for node in faces[face] {
+        for node in faces.face(face) {
             line.integer(u64::from(node.0) + 1).word(" ");
         }
         line.integer(references[face]).word("\n");

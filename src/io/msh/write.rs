@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::UNTAGGED;
 use crate::geometry::Aabb;
-use crate::io::cell_view::{CellView, Cells};
+use crate::io::cell_view::{BoundaryFaces, CellView, Cells};
 use crate::io::tag_numbers::labels;
 use crate::io::text::Text;
 use crate::io::{Document, Format, WriteError};
@@ -37,7 +37,7 @@ struct Part<'a> {
 /// Cells of the mesh, or boundary faces of hexes.
 enum Elements<'a> {
     Cells(Cells<'a>),
-    Faces(Vec<[NodeId; 4]>),
+    Faces(BoundaryFaces),
 }
 
 impl Elements<'_> {
@@ -51,7 +51,7 @@ impl Elements<'_> {
     fn nodes(&self, k: usize) -> &[NodeId] {
         match self {
             Self::Cells(cells) => cells.nodes(k),
-            Self::Faces(faces) => &faces[k],
+            Self::Faces(faces) => faces.face(k),
         }
     }
 
@@ -60,7 +60,11 @@ impl Elements<'_> {
         match self.nodes(k).len() {
             3 => 2,
             4 => 3,
-            _ => 5,
+            8 if matches!(self, Self::Cells(_)) => 5,
+            8 => 16,
+            9 => 10,
+            20 => 17,
+            _ => 12,
         }
     }
 }
@@ -155,6 +159,13 @@ fn quotable(name: &str) -> String {
     quoted
 }
 
+/// Elements of so many nodes and more are hexes of the second order.
+const SECOND_ORDER: usize = 20;
+
+/// Gmsh's order of the nodes of hexes of the second order, as places in VTK's.
+const IN_ORDER: [usize; 27] =
+    [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14, 24, 22, 20, 21, 23, 25, 26];
+
 fn write_names(file: &mut Text, parts: &[Part<'_>]) {
     let count: usize = parts.iter().map(|part| part.groups.names.len()).sum();
     if count == 0 {
@@ -173,7 +184,7 @@ fn write_names(file: &mut Text, parts: &[Part<'_>]) {
 fn write_entities(file: &mut Text, view: &CellView<'_>, parts: &[Part<'_>]) {
     let of = |dimension: u8| parts.iter().find(|part| part.dimension == dimension);
     let count = |part: &Part<'_>| part.groups.of_set.len().max(1);
-    let bounds = Aabb::around(view.positions);
+    let bounds = Aabb::around(&*view.positions);
     let corners =
         if view.positions.is_empty() { [[0.0; 3]; 2] } else { [bounds.min, bounds.max].map(Into::into) };
     file.word("$Entities\n0 0 ").integer(of(2).map_or(0, count));
@@ -223,7 +234,9 @@ fn write_elements(file: &mut Text, parts: &[Part<'_>]) {
             file.items(members.len(), |line, index| {
                 let cell = members[index] as usize;
                 line.integer(part.before + cell + 1);
-                for node in part.cells.nodes(cell) {
+                let nodes = part.cells.nodes(cell);
+                for k in 0..nodes.len() {
+                    let node = nodes[if nodes.len() < SECOND_ORDER { k } else { IN_ORDER[k] }];
                     line.word(" ").integer(u64::from(node.0) + 1);
                 }
                 line.word("\n");

@@ -3,7 +3,7 @@
 use crate::io::cell_view::CellView;
 use crate::io::refusal::{code, refuse_writing};
 use crate::io::text::Text;
-use crate::io::vtk_cells::{LEVEL, PARENT, QUAD, TAG, cell_type};
+use crate::io::vtk_cells::{LEVEL, PARENT, TAG, cell_type, face_type};
 use crate::io::{Document, Format, WriteError};
 
 /// The file as bytes: the same for any number of threads.
@@ -11,7 +11,7 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     let view = CellView::new(document, Format::Vtk)?;
     let (cells, nodes, boundary) = (view.cells, view.positions.len(), view.boundary_faces());
     let count = cells.len() + boundary.len();
-    let entries = count + cells.corners().len() + 4 * boundary.len();
+    let entries = count + cells.corners().len() + boundary.nodes.len();
     if i32::try_from(entries).is_err() || i32::try_from(nodes).is_err() {
         let message = "the mesh has more than 2^31 nodes or corners, too many for this format; write VTU";
         return Err(refuse_writing(Format::Vtk, code::TOO_LARGE, message));
@@ -26,7 +26,7 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     file.word("CELLS ").integer(count).word(" ").integer(entries).word("\n");
     file.items(count, |line, cell| {
         let nodes =
-            cell.checked_sub(cells.len()).map_or_else(|| cells.nodes(cell), |face| &boundary[face][..]);
+            cell.checked_sub(cells.len()).map_or_else(|| cells.nodes(cell), |face| boundary.face(face));
         line.integer(nodes.len());
         for node in nodes {
             line.word(" ").integer(node.0);
@@ -34,7 +34,8 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
         line.word("\n");
     });
     file.word("CELL_TYPES ").integer(count).word("\n");
-    column(&mut file, count, |cell| if cell < cells.len() { cell_type(cells, cell) } else { QUAD });
+    let of_faces = face_type(boundary.size);
+    column(&mut file, count, |cell| if cell < cells.len() { cell_type(cells, cell) } else { of_faces });
     write_cell_data(&mut file, &view);
     Ok(file.into_bytes())
 }

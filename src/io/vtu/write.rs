@@ -3,13 +3,12 @@
 use std::borrow::Cow;
 
 use super::TAG_NAMES;
-use crate::io::cell_view::{CellView, Cells};
+use crate::io::cell_view::{BoundaryFaces, CellView, Cells};
 use crate::io::refusal::{code, refuse_writing};
 use crate::io::tag_numbers::names_to_json;
 use crate::io::text::Text;
-use crate::io::vtk_cells::{LEVEL, PARENT, QUAD, TAG, cell_type};
+use crate::io::vtk_cells::{LEVEL, PARENT, TAG, cell_type, face_type};
 use crate::io::{Document, Format, WriteError};
-use crate::mesh::NodeId;
 use crate::parallel;
 
 /// Bytes of an array that are compressed together: enough that a block pays its own start, little
@@ -39,7 +38,7 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
         .word("\" NumberOfCells=\"")
         .integer(view.cells.len() + boundary.len())
         .word("\">\n<Points>\n");
-    let coordinates = bytemuck::cast_slice(view.positions);
+    let coordinates = bytemuck::cast_slice(&view.positions);
     file.array("Points", "Float64", "NumberOfComponents=\"3\"", coordinates);
     file.header.word("</Points>\n<Cells>\n");
     write_cells(&mut file, view.cells, &boundary)?;
@@ -54,10 +53,10 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
 }
 
 /// The cells, then the boundary faces that are in groups.
-fn write_cells(file: &mut File, cells: Cells<'_>, boundary: &[[NodeId; 4]]) -> Result<(), WriteError> {
-    let corners = match boundary {
+fn write_cells(file: &mut File, cells: Cells<'_>, boundary: &BoundaryFaces) -> Result<(), WriteError> {
+    let corners = match boundary.nodes.as_slice() {
         [] => Cow::Borrowed(cells.corners()),
-        _ => Cow::Owned([cells.corners(), boundary.as_flattened()].concat()),
+        nodes => Cow::Owned([cells.corners(), nodes].concat()),
     };
     let (kind, corners) = signed(bytemuck::cast_slice(&corners));
     file.array("connectivity", kind, "", &corners);
@@ -65,18 +64,19 @@ fn write_cells(file: &mut File, cells: Cells<'_>, boundary: &[[NodeId; 4]]) -> R
         Cells::Polygons(mesh) => Cow::Borrowed(&mesh.offsets[1..]),
         Cells::Quads(quads) => Cow::Owned(regular_ends(quads.len(), 4)?),
         Cells::Hexes(hexes) => Cow::Owned(regular_ends(hexes.len(), 8)?),
+        Cells::SecondOrder(hexes) => Cow::Owned(regular_ends(cells.len(), hexes.hex.nodes())?),
     };
-    if !boundary.is_empty() {
+    if boundary.len() > 0 {
         let after = cells.corners().len();
-        if u32::try_from(after + 4 * boundary.len()).is_err() {
+        if u32::try_from(after + boundary.nodes.len()).is_err() {
             return Err(too_many(cells.len() + boundary.len()));
         }
-        ends.to_mut().extend((1..=boundary.len()).map(|face| (after + 4 * face) as u32));
+        ends.to_mut().extend((1..=boundary.len()).map(|face| (after + boundary.size * face) as u32));
     }
     let (kind, ends) = signed(&ends);
     file.array("offsets", kind, "", &ends);
     let mut types: Vec<u8> = (0..cells.len()).map(|cell| cell_type(cells, cell)).collect();
-    types.resize(types.len() + boundary.len(), QUAD);
+    types.resize(types.len() + boundary.len(), face_type(boundary.size));
     file.array("types", "UInt8", "", &types);
     Ok(())
 }

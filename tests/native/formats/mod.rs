@@ -10,5 +10,6 @@ mod groups;
 mod hostile;
 mod mutations;
 mod round_trip;
+mod second_order;
 mod stl;
 mod worlds;

@@ -64,6 +64,12 @@ pub(crate) fn format_for_hexes(path: &Path) -> Result<Format, Failure> {
     format_of(path, Format::takes_hexes, "files hold no hexes")
 }
 
+/// The format of a file to write hexes of the second order to, by its extension.
+pub(crate) fn format_for_second_order(path: &Path) -> Result<Format, Failure> {
+    format_for_hexes(path)?;
+    format_of(path, Format::takes_second_order, "files are written with hexes of the first order only")
+}
+
 /// The format that the extension of `path` names, which has to be a wanted one; `otherwise` says what those are that are
 /// not.
 fn format_of(path: &Path, is_wanted: fn(Format) -> bool, otherwise: &str) -> Result<Format, Failure> {

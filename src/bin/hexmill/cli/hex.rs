@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use hexmill::hexing::{HexedSolid, HexingError, HexingOptions, HexingReport, ResultReport, hex_solid};
+use hexmill::hexing::{HexedSolid, HexingError, HexingOptions, HexingReport, ResultReport, SecondOrderReport, hex_solid};
 use hexmill::io::Document;
 
 use super::args::HexArgs;
 use super::failure::Failure;
-use super::files::{format_for_hexes, load};
+use super::files::{format_for_hexes, format_for_second_order, load};
 use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
@@ -15,7 +15,10 @@ use super::report::Report;
 
 /// Reads a closed surface, fills it with hexes, writes and reports.
 pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
-    let format = format_for_hexes(&args.making.output)?;
+    let format = match args.second_order {
+        Some(_) => format_for_second_order(&args.making.output)?,
+        None => format_for_hexes(&args.making.output)?,
+    };
     let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
     let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
     args.making.prepare(&inputs)?;
@@ -28,11 +31,12 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
         Failure::refused("surface-needed", format!("{}: {message}", args.input.display()))
     })?;
     let before = Counts::of_polygons(&surface);
-    let HexedSolid { mesh, report: work, .. } =
+    let HexedSolid { mesh, second_order, report: work, .. } =
         hex_solid(&surface, &options, &progress).map_err(|error| refused(&args.input, &error))?;
     drop(surface);
 
-    let made = Made { command: "hex", input: (&loaded, before), document: &Document::from(mesh), capped: 0 };
+    let document = Document { second_order, ..Document::from(mesh) };
+    let made = Made { command: "hex", input: (&loaded, before), document: &document, capped: 0 };
     let report = Report { hexing: Some(work), ..args.making.write(&made, format, &progress)? };
     args.making.close(report, &progress, quiet, in_words)
 }
@@ -48,6 +52,7 @@ fn options(args: &HexArgs) -> Result<HexingOptions, Failure> {
         max_distance: args.max_distance,
         max_levels: args.max_levels.unwrap_or(default.max_levels),
         max_hexes: args.max_hexes.unwrap_or(default.max_hexes),
+        second_order: args.second_order.map(Into::into),
     })
 }
 
@@ -98,5 +103,10 @@ fn work_in_words(work: &HexingReport) -> Vec<String> {
     }
     lines.push(format!("distance to the solid: {}", distance.mesh_to_surface.in_words()));
     lines.push(format!("distance from the solid: {}", distance.surface_to_mesh.in_words()));
+    if let Some(SecondOrderReport { nodes, on_solid, yielded, .. }) = work.second_order {
+        lines.push(format!(
+            "{nodes} nodes beside the corners, {on_solid} of them on the solid, {yielded} off it for the sake of their hexes"
+        ));
+    }
     lines
 }

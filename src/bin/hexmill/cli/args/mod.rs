@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand};
 
 use hexmill::hexing::face::RegionOptions;
 use hexmill::hexing::{Background, HexingOptions};
+use hexmill::mesh::SecondOrderHex;
 use hexmill::refine::QuadOptions;
 use hexmill::refine::hex::{HexOptions, Method};
 
@@ -161,6 +162,10 @@ pub(crate) struct HexArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexingOptions::MOST_HEXES))]
     pub(crate) max_hexes: Option<u64>,
 
+    /// Make hexes of the second order, curved along the solid (VTU, VTK, MSH and INP)
+    #[arg(long, value_enum, value_name = "HEX")]
+    pub(crate) second_order: Option<SecondOrderArg>,
+
     #[command(flatten)]
     pub(crate) making: Making,
 }
@@ -185,6 +190,24 @@ impl From<BackgroundArg> for Background {
             BackgroundArg::Swept => Self::Swept,
             BackgroundArg::Grid => Self::Grid,
             BackgroundArg::Octree => Self::Octree,
+        }
+    }
+}
+
+/// A hex of the second order.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum SecondOrderArg {
+    /// With a node on each edge
+    Hex20,
+    /// With nodes on edges, on faces and inside
+    Hex27,
+}
+
+impl From<SecondOrderArg> for SecondOrderHex {
+    fn from(hex: SecondOrderArg) -> Self {
+        match hex {
+            SecondOrderArg::Hex20 => Self::Hex20,
+            SecondOrderArg::Hex27 => Self::Hex27,
         }
     }
 }
