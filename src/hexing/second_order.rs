@@ -124,7 +124,7 @@ impl SecondOrderBodies {
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
         let Meshed { mesh, faces, edges, reduction, .. } = meshed;
-        let standing = Standing { faces, edges, target: &OnSolid { solid, reduction } };
+        let standing = Standing { faces, edges, target: &OnSolid::new(solid, reduction) };
         let (made, report) = second_order(mesh, &standing, self.made.hex, monitor)?;
         self.starts.push([first, mesh.positions.len(), self.made.positions.len(), self.made.nodes.len()]);
         self.made.positions.extend(made.positions);

@@ -5,5 +5,6 @@ mod csg;
 mod forecast;
 mod motions;
 mod parts;
+mod second_order;
 
 use crate::hexes::meshes;

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use hexmill::hexing::{HexedSolid, HexingError, HexingOptions, HexingReport, ResultReport, SecondOrderReport, hex_solid};
+use hexmill::hexing::{
+    HexedSolid, HexingError, HexingOptions, HexingReport, ResultReport, SecondOrderReport, hex_solid,
+};
 use hexmill::io::Document;
 
 use super::args::HexArgs;
