@@ -19,8 +19,8 @@ const BUDGETS = {
   'mesher-threads': 400_000,
   hexes: 520_000,
   'hexes-threads': 520_000,
-  solids: 640_000,
-  'solids-threads': 640_000,
+  solids: 900_000,
+  'solids-threads': 900_000,
 };
 
 /** A cancelled call has to leave the processor to the next within this time, in milliseconds. */
