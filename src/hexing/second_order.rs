@@ -84,15 +84,15 @@ fn second_order(
 ) -> Result<(SecondOrder, SecondOrderReport), Cancelled> {
     monitor.checkpoint(SECOND_ORDER, 0.0)?;
     let mut bending = Bending::new(mesh, standing, hex, monitor)?;
-    let mut suspects = bending.at_boundary();
-    for round in 1..=WAYS.len() {
-        monitor.checkpoint(SECOND_ORDER, round as f64 / (WAYS.len() + 1) as f64)?;
-        let bad = bending.bad(&suspects, monitor)?;
+    // Nodes that go back can press on the next hex, so that bad ones move through the mesh: until none is left. Each round
+    // brings a node nearer to where all hexes are straight.
+    for round in 1_u32.. {
+        monitor.checkpoint(SECOND_ORDER, 1.0 - 1.0 / f64::from(round + 1))?;
+        let bad = bending.bad(&bending.bent(), monitor)?;
         if bad.is_empty() {
             break;
         }
         bending.step_back(&bad);
-        suspects = bending.at_boundary();
     }
     monitor.checkpoint(SECOND_ORDER, 1.0)?;
     Ok(bending.done())
@@ -196,8 +196,8 @@ impl<'a> Bending<'a> {
         Ok(Self { mesh, hex, middle, edges, faces, target: standing.target, steps })
     }
 
-    /// The hexes with an edge or face that is to bend.
-    fn at_boundary(&self) -> Vec<u32> {
+    /// The hexes with an edge or face that is bent.
+    fn bent(&self) -> Vec<u32> {
         parallel::filter(self.mesh.hexes.len(), |h| {
             let mut edges = self.middle.edges.of_hex[h].iter().map(|e| e.index());
             let mut faces = self.middle.faces.of_hex[h].iter().map(|f| f.index());
@@ -317,4 +317,57 @@ fn anchors(middle: &MiddleNodes, standing: &Standing<'_>) -> (Vec<Anchor>, Vec<O
         }
     }
     (of_edges, of_faces)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fit::Foot;
+    use super::*;
+    use crate::Silent;
+    use crate::mesh::topology::hex_boundary;
+
+    /// How thick a hex is; its other edges are 1 long.
+    const THICK: f64 = 0.05;
+    const HEXES: u32 = 12;
+
+    /// Pushes the middles of edges along a row of hexes, all but those of its end.
+    struct Wind;
+
+    impl Target for Wind {
+        fn foot(&self, _: Anchor, p: Point) -> Option<Foot> {
+            let is_end = p.x > (f64::from(HEXES) - 0.25) * THICK;
+            let push = if is_end { 0.0 } else { 12.0 * THICK * (0.25 - (p.y - 0.5) * (p.y - 0.5)) };
+            Some(Foot { point: Point::new(p.x + push, p.y, p.z), direction: Point::Y })
+        }
+    }
+
+    #[test]
+    fn hexes_that_neighbours_press_on_step_back_too() {
+        let mut mesh = HexMesh::default();
+        for x in 0..=HEXES {
+            for [y, z] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+                mesh.positions.push(Point::new(f64::from(x) * THICK, y, z));
+            }
+        }
+        let corners = |h: u32| [0, 4, 5, 1, 3, 7, 6, 2].map(|n| NodeId(4 * h + n));
+        mesh.hexes.extend((0..HEXES).map(corners));
+        let quads = hex_boundary(&mesh.hexes);
+        let faces: Vec<_> = quads.iter().map(|&(quad, _)| (quad, SurfaceId(0))).collect();
+        let standing = Standing { faces: &faces, edges: &[], target: &Wind };
+        let (made, report) =
+            second_order(&mesh, &standing, SecondOrderHex::Hex20, &Silent).expect("not cancelled");
+        assert!(report.yielded >= 8, "{report:?}");
+        let place = |n: &NodeId| {
+            let other = || made.positions[n.index() - mesh.positions.len()];
+            mesh.positions.get(n.index()).copied().unwrap_or_else(other)
+        };
+        let widths: Vec<f64> = (0..HEXES as usize)
+            .map(|h| {
+                let nodes: Vec<Point> = made.nodes_of(h).iter().map(place).collect();
+                let [near, far] = [11, 9].map(|k| nodes[k].x);
+                far - near
+            })
+            .collect();
+        assert!(widths.iter().all(|&width| width > 0.0), "{widths:?}");
+    }
 }

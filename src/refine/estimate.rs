@@ -40,8 +40,8 @@ pub struct Estimate {
 
 impl Estimate {
     /// Peak memory of refinement in bytes for each quad of the result: level arrays and the growing node array stand
-    /// beside it. `cargo bench --bench memory` counts 90 where everything is refined alike and 136 to 145 where a region
-    /// is; this is the greatest, rounded up. Pages that an allocator keeps come on top.
+    /// beside it. `cargo bench --bench memory` counts 68 where everything is refined alike and 91 to 93 where a region
+    /// is; half as much again is left for inputs that share fewer nodes and for pages that an allocator keeps.
     pub const BYTES_PER_QUAD: u64 = 150;
 }
 

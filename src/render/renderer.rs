@@ -6,15 +6,14 @@ use wgpu::{BindGroup, Buffer, BufferUsages, Color, LoadOp, Operations, RenderPas
 
 use super::{
     background::Background,
-    discs::Discs,
     gpu::{Gpu, GpuError, Target},
-    lines::Lines,
+    marks::Marks,
     mesh::{MeshDrawable, MeshPipeline},
     pipeline::uniform,
     place::Place,
     solids::Solids,
 };
-use crate::scene::{Palette, Placement, Rgba, Scene, Solid, Surface};
+use crate::scene::{Disc, Palette, Placement, Rgba, Scene, Segment, Solid, Surface};
 
 /// Draws a scene on a canvas.
 pub struct Renderer {
@@ -25,10 +24,10 @@ pub struct Renderer {
     mesh_pipeline: MeshPipeline,
     mesh: Option<MeshDrawable>,
     solids: Solids,
-    outlines: Lines,
-    points: Discs,
-    front_lines: Lines,
-    discs: Discs,
+    outlines: Marks<Segment>,
+    points: Marks<Disc>,
+    front_lines: Marks<Segment>,
+    discs: Marks<Disc>,
     /// The regions' buffers are out of date.
     regions_changed: bool,
 }
@@ -89,10 +88,10 @@ impl Renderer {
         let background = Background::new(&gpu, &layout);
         let mesh_pipeline = MeshPipeline::new(&gpu, &layout);
         let solids = Solids::new(&gpu, &layout);
-        let outlines = Lines::new(&gpu, &layout, Place::InScene);
-        let front_lines = Lines::new(&gpu, &layout, Place::OnTop);
-        let points = Discs::new(&gpu, &layout, Place::InScene);
-        let discs = Discs::new(&gpu, &layout, Place::OnTop);
+        let outlines = Marks::new(&gpu, &layout, Place::InScene);
+        let front_lines = Marks::new(&gpu, &layout, Place::OnTop);
+        let points = Marks::new(&gpu, &layout, Place::InScene);
+        let discs = Marks::new(&gpu, &layout, Place::OnTop);
         gpu.check()?;
         Ok(Self {
             gpu,

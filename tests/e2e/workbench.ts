@@ -220,6 +220,17 @@ export class Workbench {
     );
   }
 
+  /** Presses Cancel once the work tells a stage: milliseconds until the page has it taken away and drawn. */
+  async cancel(): Promise<number> {
+    await this.page.waitForFunction(() => window.hexmill.workbench.running.value?.stage, undefined, { timeout: 30_000 });
+    return this.page.evaluate(async () => {
+      const started = performance.now();
+      document.querySelector<HTMLButtonElement>('#cancel')?.click();
+      await new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)));
+      return document.querySelector('#cancel') ? Number.POSITIVE_INFINITY : performance.now() - started;
+    });
+  }
+
   /** Where a handle of the selected region, or of the plane that cuts hexes, is on the page. */
   async handle(name?: string): Promise<{ name: string; x: number; y: number }> {
     const handles = await this.page.evaluate(() => window.hexmill.viewport.handles());

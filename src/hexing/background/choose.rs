@@ -4,6 +4,7 @@ use glam::DMat3;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::area_vector;
+use crate::hexing::direction::PARALLEL;
 use crate::solid::SolidModel;
 
 /// The mesh that the core is cut out of (section 4).
@@ -49,8 +50,6 @@ pub struct Choice {
 const GAIN: f64 = 0.05;
 /// A swept mesh with worse quads is no choice.
 const LEAST_QUAD: f64 = 0.15;
-/// The cosine of 2 degrees.
-const PARALLEL: f64 = 0.999_390_827;
 
 /// May a sweep that captures such a share of the area be chosen? Its quads need not be made if not.
 pub fn may_sweep(solid: &SolidModel, axes: DMat3, surface_capture: f64) -> bool {

@@ -11,9 +11,9 @@ use crate::solid::{SolidModel, Surface, SurfaceClass};
 /// The cosine of 0.1 degrees: normals that differ by less are of one plane.
 const COPLANAR: f64 = 1.0 - 1.5e-6;
 /// The cosine of 2 degrees: directions that differ by less are one.
-const PARALLEL: f64 = 0.999_390_827;
+pub(in crate::hexing) const PARALLEL: f64 = 0.999_390_827;
 /// The sine of 2 degrees: directions whose dot product is less are perpendicular.
-const PERPENDICULAR: f64 = 0.034_899_497;
+pub(in crate::hexing) const PERPENDICULAR: f64 = 0.034_899_497;
 /// A facet so many times as large as any that it goes over into smoothly is a plane between fillets. A curved surface has
 /// strips of about one width.
 const WIDER: f64 = 4.0;

@@ -5,6 +5,7 @@ mod frame;
 mod principal;
 mod silhouette;
 
+pub(super) use clusters::{PARALLEL, PERPENDICULAR};
 pub use frame::best_frame;
 pub use principal::{DirectionScore, principal_directions};
 

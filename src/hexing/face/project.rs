@@ -10,10 +10,8 @@ use glam::DVec2;
 use super::graph::{Graph, Segment};
 use super::scale::Projection;
 use super::shadow::Shadow;
+use crate::hexing::direction::PERPENDICULAR;
 use crate::solid::{Curve, SolidModel};
-
-/// Surfaces whose normal is closer than this to perpendicular lie along the direction: the sine of 2 degrees.
-const ALONG: f64 = 0.034_899_497;
 
 /// A curve that is shorter than this seen along the direction is a point: 0.15 h.
 const POINT: f64 = 0.075;
@@ -94,7 +92,7 @@ fn is_rim(curve: &Curve, rim: &BTreeSet<[u32; 2]>) -> bool {
 fn rim_edges(solid: &SolidModel, projection: &Projection) -> BTreeSet<[u32; 2]> {
     let facing = |t: usize| {
         let along = solid.normals()[t].dot(projection.direction());
-        i8::from(along > ALONG) - i8::from(along < -ALONG)
+        i8::from(along > PERPENDICULAR) - i8::from(along < -PERPENDICULAR)
     };
     let mut rim = BTreeSet::new();
     for (t, triangle) in solid.triangles().iter().enumerate() {

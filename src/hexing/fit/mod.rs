@@ -37,6 +37,8 @@ use inflate::inflate;
 use progress::Part;
 use pull::{Course, pull};
 use spread::chains;
+#[cfg(test)]
+pub(super) use target::Foot;
 pub(super) use target::{OnSolid, Target};
 use unlock::unlock;
 
