@@ -106,6 +106,7 @@ impl LevelEdges {
     }
 
     /// True if no node divides edge `e`.
+    #[inline]
     pub(crate) fn is_undivided(&self, e: EdgeId) -> bool {
         self.middle.get(e.index()).is_none_or(|&middle| middle == UNDIVIDED)
     }
@@ -150,6 +151,7 @@ impl LevelEdges {
 
     /// The half of edge `e` at local node `corner` of an element that has it. Edge nodes are local nodes 1
     /// and 3, and the first half is theirs.
+    #[inline]
     fn half(&self, e: EdgeId, corner: usize) -> EdgeId {
         EdgeId(self.halves[e.index()].0 + u32::from(corner.is_multiple_of(2)))
     }
@@ -335,15 +337,17 @@ fn with_slack(count: usize) -> usize {
 }
 
 /// Halfway between the ends of an edge.
+#[inline]
 pub(crate) fn midpoint(positions: &[Point], ends: [NodeId; 2]) -> Point {
-    let [a, b] = ends.map(|n| positions[n.index()]);
-    (a + b) * 0.5
+    let (at, [a, b]) = (|n: NodeId| positions[n.index()], ends);
+    (at(a) + at(b)) * 0.5
 }
 
 /// The mean of the four nodes of an element.
+#[inline]
 pub(crate) fn center(positions: &[Point], element: [NodeId; 4]) -> Point {
-    let [a, b, c, d] = element.map(|n| positions[n.index()]);
-    ((a + c) + (b + d)) * 0.25
+    let (at, [a, b, c, d]) = (|n: NodeId| positions[n.index()], element);
+    ((at(a) + at(c)) + (at(b) + at(d))) * 0.25
 }
 
 /// Appends `more` to `all`, without a copy where `all` is empty.

@@ -16,11 +16,13 @@ impl Aabb {
     pub const EMPTY: Self = Self { min: Point::INFINITY, max: Point::NEG_INFINITY };
 
     /// The smallest box around `points`.
+    #[inline]
     pub fn around<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
         points.into_iter().fold(Self::EMPTY, |b, &p| b.with(p))
     }
 
     /// The smallest box that holds `self` and `p`.
+    #[inline]
     pub fn with(self, p: Point) -> Self {
         Self { min: self.min.min(p), max: self.max.max(p) }
     }
@@ -46,6 +48,7 @@ impl Aabb {
     }
 
     /// True if the two closed boxes share a point.
+    #[inline]
     pub fn touches(&self, other: &Self) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }
@@ -61,6 +64,7 @@ impl Aabb {
     }
 
     /// The box grown by `margin` on every side.
+    #[inline]
     pub fn grown(&self, margin: f64) -> Self {
         Self { min: self.min - Point::splat(margin), max: self.max + Point::splat(margin) }
     }

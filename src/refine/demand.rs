@@ -53,6 +53,7 @@ impl Demand {
     }
 
     /// True if an element of `level`, part of input face `root`, is wanted finer.
+    #[inline]
     pub fn wants(&self, corners: [Point; 4], longest: f64, level: u8, root: FaceId) -> bool {
         self.is_uniform_at(level)
             || self.field.wants(&SizedElement { corners, longest, level, root: Some(root) })
@@ -66,15 +67,20 @@ pub(super) fn face_points(input: &PolygonMesh, face: usize) -> Vec<Point> {
 
 /// The quads of a polygon's first refinement: one at each corner.
 pub(super) fn corner_quads(points: &[Point]) -> impl Iterator<Item = [Point; 4]> + '_ {
-    let n = points.len();
     let (center, _) = outline(points);
-    (0..n).map(move |i| {
-        let (here, before, after) = (points[i], points[(i + n - 1) % n], points[(i + 1) % n]);
-        [here, (here + after) * 0.5, center, (before + here) * 0.5]
-    })
+    (0..points.len()).map(move |i| corner_quad(points, center, i))
+}
+
+/// The quad at corner `i` of a polygon around `center`.
+#[inline]
+pub(super) fn corner_quad(points: &[Point], center: Point, i: usize) -> [Point; 4] {
+    let n = points.len();
+    let (here, before, after) = (points[i], points[(i + n - 1) % n], points[(i + 1) % n]);
+    [here, (here + after) * 0.5, center, (before + here) * 0.5]
 }
 
 /// The mean of a polygon's nodes and the length of its longest edge.
+#[inline]
 pub(super) fn outline(points: &[Point]) -> (Point, f64) {
     let mut longest = 0.0_f64;
     let mut before = points[points.len() - 1];

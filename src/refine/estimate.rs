@@ -8,7 +8,7 @@
 
 use serde::Serialize;
 
-use super::demand::{Demand, corner_quads, face_points, outline};
+use super::demand::{Demand, corner_quad, corner_quads, face_points, outline};
 use super::options::{QuadOptions, RefineError};
 use super::quad::refine_within;
 use crate::geometry::Point;
@@ -81,7 +81,8 @@ pub(super) fn refuse_absurd(
     monitor: &dyn Monitor,
 ) -> Result<(), RefineError> {
     let deepest = demand.deepest(options.max_levels);
-    let most = input.corners.len() as f64 * 4_f64.powi(i32::from(deepest));
+    // Level 1 has a quad at each corner of the input.
+    let most = input.corners.len() as f64 * 4_f64.powi(i32::from(deepest) - 1);
     if most <= options.max_quads as f64 {
         return Ok(());
     }
@@ -98,6 +99,13 @@ pub(super) fn refuse_absurd(
 struct Sampled {
     corners: [Point; 4],
     root: FaceId,
+}
+
+impl Sampled {
+    fn child(&self, corner: usize) -> Self {
+        let (center, _) = outline(&self.corners);
+        Self { corners: corner_quad(&self.corners, center, corner), root: self.root }
+    }
 }
 
 /// Follows the trees from the base level down.
@@ -128,11 +136,12 @@ fn follow_sample(
         .collect();
     while !parents.is_empty() {
         level += 1;
-        let all: Vec<Sampled> = parents.iter().flat_map(|s| split(&s.corners, s.root)).collect();
-        let kept = chosen(all.len(), level);
-        weight *= all.len() as f64 / kept.len() as f64;
+        let children = 4 * parents.len();
+        let kept = chosen(children, level);
+        weight *= children as f64 / kept.len() as f64;
         parents = parallel::try_gather(kept.len(), monitor, |k, found| {
-            found.extend(Some(all[kept[k]]).filter(|s| wants(level, s)));
+            let (parent, corner) = (&parents[kept[k] / 4], kept[k] % 4);
+            found.extend(Some(parent.child(corner)).filter(|s| wants(level, s)));
         })?;
         quads += weight * (kept.len() - parents.len()) as f64;
     }
@@ -165,11 +174,6 @@ fn base(input: &PolygonMesh, f: usize, level: u8) -> Vec<Sampled> {
     let (points, root) = (face_points(input, f), FaceId::new(f));
     match <[Point; 4]>::try_from(&*points) {
         Ok(corners) if level == 0 => vec![Sampled { corners, root }],
-        _ => split(&points, root).collect(),
+        _ => corner_quads(&points).map(|corners| Sampled { corners, root }).collect(),
     }
-}
-
-/// The elements into which a polygon is refined.
-fn split(points: &[Point], root: FaceId) -> impl Iterator<Item = Sampled> + '_ {
-    corner_quads(points).map(move |corners| Sampled { corners, root })
 }

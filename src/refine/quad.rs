@@ -247,8 +247,10 @@ fn last_elements(forest: &QuadForest) -> &[[NodeId; 4]] {
     &forest.levels.last().expect("a forest has a base level").elements
 }
 
+#[inline]
 fn corners(positions: &[Point], element: &[NodeId; 4]) -> [Point; 4] {
-    element.map(|n| positions[n.index()])
+    let (at, &[a, b, c, d]) = (|n: NodeId| positions[n.index()], element);
+    [at(a), at(b), at(c), at(d)]
 }
 
 /// Refuses targets that are not one length above 0 for each candidate.

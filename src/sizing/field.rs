@@ -141,6 +141,7 @@ impl SizeField {
     }
 
     /// True if the element is to be refined.
+    #[inline]
     pub fn wants<const N: usize>(&self, element: &SizedElement<N>) -> bool
     where
         [Point; N]: Corners,
@@ -198,6 +199,7 @@ impl Graded {
         }
     }
 
+    #[inline]
     fn wants<const N: usize>(&self, element: &SizedElement<N>, probe: &Probe<N>, spread: f64) -> bool
     where
         [Point; N]: Corners,

@@ -45,6 +45,7 @@ impl<const N: usize> Probe<N>
 where
     [Point; N]: Corners,
 {
+    #[inline]
     pub(super) fn new(element: &SizedElement<N>) -> Self {
         let corners = element.corners;
         let pairs = corners.chunks(2).map(|pair| pair.iter().sum::<Point>());
@@ -54,6 +55,7 @@ where
     }
 
     /// A box that touches the bounds of every shape that this element can be found to meet with a reach up to `reach`.
+    #[inline]
     pub(super) fn bounds_within(&self, reach: f64) -> Aabb {
         self.bounds.grown(reach + self.least_extent())
     }
@@ -143,6 +145,7 @@ impl Overlap {
     }
 
     /// True if the element overlaps the shape by more than a touch, or is nearer to it than `reach`.
+    #[inline]
     pub(super) fn is_met<const N: usize>(&self, element: &Probe<N>, reach: f64) -> bool
     where
         [Point; N]: Corners,
@@ -237,6 +240,7 @@ where
 }
 
 /// True if the shrunk element comes as near to `p` as `distance`: told by its middle or its circle if they can.
+#[inline]
 fn is_near<const N: usize>(element: &Probe<N>, p: Point, distance: f64) -> bool
 where
     [Point; N]: Corners,

@@ -9,6 +9,8 @@ mod solid_cases;
 
 use cases::cases;
 use hex_cases::hex_cases;
+use hexmill::io::Format;
+use sha2::{Digest, Sha256};
 use solid_cases::solid_cases;
 
 #[test]
@@ -28,4 +30,15 @@ fn results_are_those_of_the_fixture_on_any_number_of_threads() {
             assert_eq!(outcome, case.expected, "{} on {threads} threads", case.name);
         }
     }
+}
+
+#[test]
+fn files_are_those_of_the_fixture_to_the_last_byte() {
+    for case in cases() {
+        let written = case.written();
+        let digests = written.iter().map(|(&name, bytes)| (name, format!("{:x}", Sha256::digest(bytes))));
+        let expected = case.files.iter().map(|(name, digest)| (name.as_str(), digest.clone()));
+        assert_eq!(digests.collect::<Vec<_>>(), expected.collect::<Vec<_>>(), "{}", case.name);
+    }
+    assert!(cases().iter().any(|case| case.files.len() == Format::ALL.len() - 1), "STL alone is not written");
 }

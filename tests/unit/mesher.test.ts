@@ -1,12 +1,13 @@
 // The built package in Node, with its real modules and worker threads.
 
+import { createHash } from 'node:crypto';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
 import { createMesher, MOST_QUADS, MOST_THREADS } from 'hexmill';
-import type { Mesher, MesherOptions, Progress, QuadOptions } from 'hexmill';
+import type { Mesher, MesherOptions, OutputFormat, Progress, QuadOptions } from 'hexmill';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
 import { cases } from '../fixtures/cases.js';
@@ -45,6 +46,15 @@ describe.each([1, 2, 4])('on %i threads', (threads) => {
     expect(mesh.parent).toHaveLength(quads);
     expect(mesh.quads.every((node) => node < nodes)).toBe(true);
   });
+
+  it.each(cases().flatMap(({ files, ...given }) => Object.entries(files ?? {}).map(([format, digest]) => ({ ...given, format, digest }))))(
+    'writes the file of the fixture to the last byte: $name as $format',
+    async ({ obj, options, format, digest }) => {
+      const mesh = await mesher.refineQuads(obj, options);
+      const file = await mesh.export(format as OutputFormat);
+      expect(createHash('sha256').update(file).digest('hex')).toBe(digest);
+    },
+  );
 
   it('loads a surface once for several meshes', async () => {
     using surface = await mesher.load(SQUARE, { name: 'square.obj' });
