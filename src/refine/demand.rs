@@ -1,11 +1,11 @@
 //! Which elements the options want finer: what refinement and its estimate have in common.
 
 use super::options::{QuadOptions, RefineError, validate, validate_digits};
-use crate::Monitor;
 use crate::geometry::Point;
 use crate::mesh::{FaceId, PolygonMesh};
 use crate::parallel;
 use crate::sizing::{SizeField, SizeOptions, SizedElement};
+use crate::{Cancelled, Monitor};
 
 /// The options, checked and made ready for many questions.
 pub(super) struct Demand {
@@ -50,6 +50,16 @@ impl Demand {
     /// The level below which nothing is wanted finer, at most `max_levels`.
     pub fn deepest(&self, max_levels: u8) -> u8 {
         (0..max_levels).find(|&level| self.is_idle_from(level)).unwrap_or(max_levels)
+    }
+
+    /// The regions that overlap no part of the input, by their places among the options'.
+    pub fn idle_regions(&self, input: &PolygonMesh, monitor: &dyn Monitor) -> Result<Vec<u32>, Cancelled> {
+        self.field.idle_regions(input.face_count(), monitor, |f| {
+            let points = face_points(input, f);
+            let root = Some(FaceId::new(f));
+            let element = |corners| SizedElement { corners, longest: outline(&corners).1, level: 1, root };
+            corner_quads(&points).map(element).collect()
+        })
     }
 
     /// True if an element of `level`, part of input face `root`, is wanted finer.

@@ -23,7 +23,7 @@ const COUNTED: u64 = 60_000;
 const SAMPLE: usize = 20_000;
 
 /// How large a mesh will be.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Estimate {
     /// Quads of the mesh, about.
@@ -36,6 +36,8 @@ pub struct Estimate {
     pub levels: u8,
     /// True if the figures but `bytes` are exact.
     pub exact: bool,
+    /// The regions that overlap no part of the input, by their places among the options'. They refine nothing.
+    pub idle_regions: Vec<u32>,
 }
 
 impl Estimate {
@@ -54,13 +56,35 @@ pub fn estimate_quads(
     options: &QuadOptions,
     monitor: &dyn Monitor,
 ) -> Result<Estimate, RefineError> {
+    let size = size(input, options, monitor)?;
+    Ok(Estimate { idle_regions: idle_regions(input, options, monitor)?, ..size })
+}
+
+/// The regions that overlap no part of the input, by their places among the options': they refine nothing.
+///
+/// # Errors
+/// If the input is no valid surface, an option is out of range, or the monitor stops it.
+pub fn idle_regions(
+    input: &PolygonMesh,
+    options: &QuadOptions,
+    monitor: &dyn Monitor,
+) -> Result<Vec<u32>, RefineError> {
+    if options.regions.is_empty() {
+        return Ok(Vec::new());
+    }
+    Ok(Demand::new(input, options, monitor)?.idle_regions(input, monitor)?)
+}
+
+/// As [`estimate_quads`], of the figures alone.
+fn size(input: &PolygonMesh, options: &QuadOptions, monitor: &dyn Monitor) -> Result<Estimate, RefineError> {
     let small = QuadOptions { max_quads: COUNTED, ..options.clone() };
     match refine_within(input, &small, monitor) {
         Ok(refined) => {
             let quads = refined.mesh.quads.len() as u64;
             let levels = refined.level.iter().copied().max().unwrap_or(0);
             let nodes = refined.mesh.positions.len() as u64;
-            Ok(Estimate { quads, nodes, bytes: quads * Estimate::BYTES_PER_QUAD, levels, exact: true })
+            let bytes = quads * Estimate::BYTES_PER_QUAD;
+            Ok(Estimate { quads, nodes, bytes, levels, exact: true, idle_regions: Vec::new() })
         }
         Err(RefineError::TooManyQuads { .. }) => {
             let demand = Demand::new(input, options, monitor)?;
@@ -147,7 +171,7 @@ fn follow_sample(
     }
     let quads = quads as u64;
     let (nodes, bytes) = (quads.saturating_add(quads / 64), quads.saturating_mul(Estimate::BYTES_PER_QUAD));
-    Ok(Estimate { quads, nodes, bytes, levels: level, exact: false })
+    Ok(Estimate { quads, nodes, bytes, levels: level, exact: false, idle_regions: Vec::new() })
 }
 
 /// About [`SAMPLE`] of the numbers below `count`, or all of them.

@@ -25,6 +25,6 @@ mod options;
 mod quad;
 mod targets;
 
-pub use estimate::{Estimate, estimate_quads};
+pub use estimate::{Estimate, estimate_quads, idle_regions};
 pub use options::{QuadOptions, RefineError, RefinedQuads};
 pub use quad::{Candidates, QuadRefinement, refine_quads};

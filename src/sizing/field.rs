@@ -67,6 +67,9 @@ struct Graded {
 /// So many regions are asked one after the other; among more an index finds those that are near.
 const FEW: usize = 12;
 
+/// So many cells are held against the regions between two questions to the monitor.
+const CELLS_AT_ONCE: usize = 4096;
+
 impl SizeField {
     /// Checks the options and prepares them.
     ///
@@ -153,6 +156,38 @@ impl SizeField {
         longest > self.edge_length
             || element.root.and_then(|f| self.by_face.get(f.index())).is_some_and(|&limit| longest > limit)
             || self.some_region_wants(element)
+    }
+
+    /// The regions that overlap none of `count` cells, by their places among the options'. `elements` gives the elements
+    /// that a cell consists of.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn idle_regions<const N: usize>(
+        &self,
+        count: usize,
+        monitor: &dyn Monitor,
+        elements: impl Fn(usize) -> Vec<SizedElement<N>> + Sync,
+    ) -> Result<Vec<u32>, Cancelled>
+    where
+        [Point; N]: Corners,
+    {
+        if self.regions.is_empty() {
+            return Ok(Vec::new());
+        }
+        let met = parallel::try_blocks(count, CELLS_AT_ONCE, monitor, |cells| {
+            let mut met = vec![false; self.regions.len()];
+            for probe in cells.flat_map(&elements).map(|element| Probe::new(&element)) {
+                let mut look = |i: usize| met[i] = met[i] || self.regions[i].overlap.is_met(&probe, 0.0);
+                match &self.index {
+                    None => (0..self.regions.len()).for_each(&mut look),
+                    Some(index) => index.touching(&probe.bounds_within(0.0)).for_each(&mut look),
+                }
+            }
+            met
+        })?;
+        let is_idle = |i: &usize| !met.iter().any(|block| block[*i]);
+        Ok((0..self.regions.len()).filter(is_idle).map(|i| i as u32).collect())
     }
 
     fn some_region_wants<const N: usize>(&self, element: &SizedElement<N>) -> bool

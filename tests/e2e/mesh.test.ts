@@ -117,6 +117,16 @@ describe.each([
     expect(await bench.cellsOf(region)).toEqual(withRegion);
   });
 
+  test('a region that meets nothing says so', async () => {
+    const region = bench.page.locator('[data-region="1"]');
+    await bench.page.getByRole('button', { name: 'Add sphere' }).click();
+    await region.getByText('edges ≤').waitFor();
+    await bench.fill('Centre x', '1000');
+    await region.getByText('meets nothing').waitFor();
+    await region.getByRole('button', { name: /^Delete/ }).click();
+    await bench.mesh();
+  });
+
   test('colours show quality and levels', async () => {
     const plain = await bench.picture();
     await bench.choice('Colour cells by', 'Quality').check();

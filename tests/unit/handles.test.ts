@@ -10,7 +10,7 @@ import type { Surface } from '../../www/lib/loaded.js';
 import { fakePlatform, settle } from './fake-platform.js';
 import type { FakeWorker } from './fake-platform.js';
 
-const ESTIMATE = { quads: 4, nodes: 9, bytes: 440, levels: 1, exact: true };
+const ESTIMATE = { quads: 4, nodes: 9, bytes: 440, levels: 1, exact: true, idleRegions: [] };
 const SURFACE = { kind: 'surface' };
 const MESH = { nodes: new Float64Array(12), quads: new Uint32Array(4), level: new Uint8Array(1), parent: new Uint32Array(1) };
 

@@ -34,6 +34,8 @@ export interface Estimate {
   levels: number;
   /** True if the figures are exact. */
   exact: boolean;
+  /** The regions that overlap no part of the input, by their places among the options'. They refine nothing. */
+  idleRegions: number[];
 }
 
 /** A measure of a quad: the scaled Jacobian from -1 to 1 (square), angles in degrees, the aspect ratio from 1. */

@@ -37,6 +37,17 @@ fn features_that_are_lost_are_counted() {
 }
 
 #[test]
+fn regions_that_meet_nothing_are_told() {
+    let folder = folder_with("quads/pawn.obj");
+    let regions = ["--region", "sphere:90,0,0,1:level=2", "--region", "box:-9,-9,-9,9,9,9:level=1"];
+    let args = ["refine", "pawn.obj", "-o", "out.obj", "--report", "r.json"];
+    let stdout = succeed(&folder, &[&args[..], &regions[..]].concat());
+    let told = "  region sphere:90,0,0,1:level=2 meets nothing of the input and refines nothing\n";
+    assert!(stdout.contains(told), "{stdout}");
+    assert_eq!(json(&folder, "r.json")["idleRegions"], json!(["sphere:90,0,0,1:level=2"]));
+}
+
+#[test]
 fn triangles_and_polygons_become_quads() {
     for (model, file) in [("solids/spot.obj", "spot.obj"), ("quads/bishop.obj", "bishop.obj")] {
         let folder = folder_with(model);

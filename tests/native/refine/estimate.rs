@@ -103,3 +103,26 @@ fn an_estimate_can_be_cancelled_anywhere() {
     }
     assert!(stopped > 40, "asked only {stopped} times");
 }
+
+#[test]
+fn regions_that_meet_nothing_are_told() {
+    let near = |k: u32| sphere([f64::from(k % 4), 1.0, 0.0], 0.3, Target::Level(2));
+    let far = |k: u32| sphere([f64::from(k), 1.0, 9.0], 0.3, Target::Size(0.1));
+    // The last one touches the grid from outside.
+    let beside = Region {
+        shape: Shape::Box {
+            min: Point::new(4.0, 0.0, -1.0),
+            max: Point::new(5.0, 2.0, 1.0),
+            rotation: Default::default(),
+        },
+        target: Target::Level(3),
+    };
+    for count in [2, 20] {
+        let mut regions: Vec<Region> = (0..count).flat_map(|k| [near(k), far(k)]).collect();
+        regions.push(beside.clone());
+        let options = QuadOptions { regions, ..QuadOptions::default() };
+        let idle = estimate_quads(&grid(4, 2), &options, &Silent).expect("valid input").idle_regions;
+        let expected: Vec<u32> = (0..count).map(|k| 2 * k + 1).chain([2 * count]).collect();
+        assert_eq!(idle, expected);
+    }
+}

@@ -76,6 +76,8 @@ export interface Forecast {
   readonly added: AddedHexes | null;
   /** The solid that will be filled. */
   readonly solid: SolidPlan | null;
+  /** The regions that meet nothing of the input, by place. */
+  readonly idleRegions: readonly number[];
 }
 
 /** A mesh, and the plan of the solid that it fills. */
@@ -98,16 +100,16 @@ export class Maker {
     const mesher = await this.#mesher;
     const job = jobOf(input, settings);
     if (job === 'quads') {
-      const { quads, bytes, levels, exact } = await mesher.estimateQuads(surfaceOf(input), { ...toOptions(settings), signal });
-      return { noun: 'quad', cells: quads, exact, bytes, levels, added: null, solid: null };
+      const { quads, bytes, levels, exact, idleRegions } = await mesher.estimateQuads(surfaceOf(input), { ...toOptions(settings), signal });
+      return { noun: 'quad', cells: quads, exact, bytes, levels, added: null, solid: null, idleRegions };
     }
     if (job === 'solid') {
       const solid = await this.#solid(input, settings, signal);
-      return { noun: 'hex', cells: solid.hexes ?? 0, exact: false, bytes: solid.bytes ?? 0, levels: null, added: null, solid };
+      return { noun: 'hex', cells: solid.hexes ?? 0, exact: false, bytes: solid.bytes ?? 0, levels: null, added: null, solid, idleRegions: [] };
     }
     const hexes = await this.#hexes(input, settings, { signal });
     const plan = await mesher.planHexes(hexes, { ...toHexOptions(settings, atSurface(input, settings)), signal });
-    return { noun: 'hex', cells: plan.hexes, exact: true, bytes: plan.bytes, levels: plan.stages.length, added: plan.added, solid: null };
+    return { noun: 'hex', cells: plan.hexes, exact: true, bytes: plan.bytes, levels: plan.stages.length, added: plan.added, solid: null, idleRegions: [] };
   }
 
   async make(input: Input, settings: Settings, options: CallOptions): Promise<Made> {

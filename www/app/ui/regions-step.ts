@@ -29,11 +29,13 @@ export function regionsStep(page: Page): TemplateResult {
 function regionItem(page: Page, region: Region, index: number): TemplateResult {
   const { workbench } = page;
   const isOpen = workbench.selected.value === region.id;
+  const isIdle = workbench.isEstimated.value && (workbench.estimate.value?.idleRegions.includes(index) ?? false);
   const name = `${SHAPES.find(({ kind }) => kind === region.shape.kind)?.label ?? ''} ${index + 1}`;
   return html`<li class=${isOpen ? 'open' : ''} data-region=${index}>
     <div class="region-head">
       <button class="region-name" type="button" aria-expanded=${isOpen} @click=${() => (workbench.selected.value = isOpen ? null : region.id)}>
-        ${icon(region.shape.kind)}<span>${name}</span><small>${describe(region.target)}</small>
+        ${icon(region.shape.kind)}<span>${name}</span>
+        ${isIdle ? html`<small class="idle" title="It overlaps no part of the model, so it refines nothing">meets nothing</small>` : html`<small>${describe(region.target)}</small>`}
       </button>
       ${iconButton({ icon: 'copy', label: `Duplicate ${name}`, press: () => workbench.duplicateRegion(region.id) })}
       ${iconButton({ icon: 'bin', label: `Delete ${name}`, press: () => workbench.deleteRegion(region.id) })}

@@ -25,6 +25,8 @@ pub(super) struct Refined {
     pub(super) work: Option<HexRefinementReport>,
     /// Of a surface.
     pub(super) dropped: Option<DroppedFeatures>,
+    /// Of a surface: the regions that overlap no part of it, as they were given.
+    pub(super) idle_regions: Vec<String>,
 }
 
 /// Reads, refines, writes and reports.
@@ -46,11 +48,12 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
         }
         _ => refine_surface::refine(args, document, &progress),
     };
-    let Refined { before, document, capped, options, work, dropped } = refined?;
+    let Refined { before, document, capped, options, work, dropped, idle_regions } = refined?;
 
     let made = Made { command: "refine", input: (&loaded, before), document: &document, capped };
     let report = args.making.write(&made, format, &progress)?;
-    let report = Report { options: Some(options), refinement: work, dropped_features: dropped, ..report };
+    let (options, dropped_features) = (Some(options), dropped);
+    let report = Report { options, refinement: work, dropped_features, idle_regions, ..report };
     args.making.close(report, &progress, quiet, in_words)
 }
 
@@ -84,6 +87,8 @@ fn in_words(path: &Path, report: &Report) -> String {
             "  {polylines} polylines, {creases} creases and {corners} corners of the input do not go over to the mesh"
         ));
     }
+    let idle = |region| format!("  region {region} meets nothing of the input and refines nothing");
+    lines.extend(report.idle_regions.iter().map(idle));
     lines.extend(mesh.quality.as_ref().map(quality_table));
     lines.push(format!("  hash {}, {:.2} s", mesh.hash, report.seconds));
     lines.join("\n") + "\n"

@@ -47,6 +47,7 @@ pub(super) fn refine(
         options: told,
         work: Some(work),
         dropped: None,
+        idle_regions: Vec::new(),
     })
 }
 

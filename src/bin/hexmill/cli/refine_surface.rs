@@ -1,7 +1,7 @@
 //! `hexmill refine` of a surface.
 
 use hexmill::io::Document;
-use hexmill::refine::{QuadOptions, RefineError, refine_quads};
+use hexmill::refine::{QuadOptions, RefineError, idle_regions, refine_quads};
 
 use super::args::RefineArgs;
 use super::failure::Failure;
@@ -30,6 +30,7 @@ pub(super) fn refine(args: &RefineArgs, document: Document, progress: &Progress)
     options.max_quads = limit.cells;
     let refined =
         refine_quads(&surface, &options, progress).map_err(|error| refused(args, &limit, &error))?;
+    let idle = idle_regions(&surface, &options, progress).map_err(|error| refused(args, &limit, &error))?;
     Ok(Refined {
         before: Counts::of_polygons(&surface),
         capped: refined.capped,
@@ -37,6 +38,7 @@ pub(super) fn refine(args: &RefineArgs, document: Document, progress: &Progress)
         options: told,
         work: None,
         dropped,
+        idle_regions: idle.iter().map(|&k| args.regions[k as usize].text.clone()).collect(),
     })
 }
 

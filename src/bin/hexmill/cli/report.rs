@@ -33,6 +33,9 @@ pub(crate) struct Report {
     /// Of a refinement of a surface.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) dropped_features: Option<DroppedFeatures>,
+    /// Of a refinement of a surface: the regions that overlap no part of it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) idle_regions: Vec<String>,
     /// Of the meshing of a solid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) hexing: Option<HexingReport>,
@@ -61,6 +64,7 @@ impl Report {
             options: None,
             refinement: None,
             dropped_features: None,
+            idle_regions: Vec::new(),
             hexing: None,
             face: None,
             output: None,
