@@ -1,9 +1,9 @@
 //! All-hex meshes of solids.
 
-use js_sys::{Float32Array, Uint8Array, Uint32Array};
+use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use super::convert::to_object;
+use super::convert::{check_ids, points, to_object};
 use super::errors::Failure;
 use super::file::format_named;
 use super::hex_arrays::{HexArrays, boundary_groups, hex_mesh, pairs};
@@ -12,10 +12,11 @@ use super::memory::{Affordable, Cost, Limited};
 use super::pool::on_pool;
 use super::solid_plan::Plan;
 use super::surface::Surface;
+use crate::geometry::Point;
 use crate::hexing::background::BackgroundError;
 use crate::hexing::{self, HexingError, HexingOptions, body_tags, hex_solid, surface_groups};
 use crate::io::{self, Document};
-use crate::mesh::{Triangles, distances_of_hexes};
+use crate::mesh::{HexMesh, NodeId, SecondOrder, SecondOrderHex, Triangles, distances_of_hexes};
 use crate::refine::hex::HexRefineError;
 use crate::solid::SurfaceId;
 
@@ -68,6 +69,20 @@ impl HexedSolid {
         self.hexed.mesh.tags.of_element.as_slice().into()
     }
 
+    /// x, y, z of each node beside the corners of hexes of the second order; empty for linear ones.
+    #[wasm_bindgen(js_name = middleNodes)]
+    pub fn middle_nodes(&self) -> Float64Array {
+        let nodes = self.hexed.second_order.as_ref().map_or(&[][..], |made| &made.positions);
+        bytemuck::cast_slice::<Point, f64>(nodes).into()
+    }
+
+    /// The 20 or 27 nodes of each hex of the second order; empty for linear ones.
+    #[wasm_bindgen(js_name = secondOrder)]
+    pub fn second_order(&self) -> Uint32Array {
+        let nodes = self.hexed.second_order.as_ref().map_or(&[][..], |made| &made.nodes);
+        bytemuck::cast_slice::<NodeId, u32>(nodes).into()
+    }
+
     /// What was done and what came of it: an object with the fields of `SolidReport` in `www/lib/solid-results.ts`.
     ///
     /// # Errors
@@ -111,6 +126,8 @@ pub fn export(
     hexes: Vec<u32>,
     sides: &[u32],
     bodies: Vec<u32>,
+    middle_nodes: Vec<f64>,
+    second_order: Vec<u32>,
     format: &str,
 ) -> Result<Uint8Array, Failure> {
     let format = format_named(format)?;
@@ -126,8 +143,30 @@ pub fn export(
         }
         mesh.tags = body_tags(count, bodies);
     }
-    let document = Document::from(mesh);
+    let second_order = second_order_of(&mesh, middle_nodes, second_order)?;
+    let document = Document { second_order, ..Document::from(mesh) };
     Ok(on_pool(|| io::write(&document, format))?.as_slice().into())
+}
+
+/// What makes the hexes of `mesh` hexes of the second order, if they are.
+fn second_order_of(
+    mesh: &HexMesh,
+    middle_nodes: Vec<f64>,
+    nodes: Vec<u32>,
+) -> Result<Option<SecondOrder>, Failure> {
+    if nodes.is_empty() {
+        return Ok(None);
+    }
+    let kinds = [SecondOrderHex::Hex20, SecondOrderHex::Hex27];
+    let hex =
+        kinds.into_iter().find(|kind| kind.nodes() * mesh.hexes.len() == nodes.len()).ok_or_else(|| {
+            let message =
+                format!("the array of second order has {} numbers, not 20 or 27 for each hex", nodes.len());
+            Failure::input("array-length", &message)
+        })?;
+    let positions = points(middle_nodes)?;
+    check_ids(&nodes, mesh.positions.len() + positions.len())?;
+    Ok(Some(SecondOrder { hex, positions, nodes: bytemuck::cast_vec(nodes) }))
 }
 
 /// How far each hex with a face on the boundary is from a surface; NaN for the others.

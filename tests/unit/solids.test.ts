@@ -89,6 +89,30 @@ describe.each([1, 2])('solids on %i threads', (threads) => {
     expect(again.info.groups).toHaveLength(6);
   });
 
+  it.each([
+    ['hex20', 20, 'msh'],
+    ['hex27', 27, 'vtu'],
+  ] as const)('of the second order have nodes on the solid: %s', async (secondOrder, perHex, format) => {
+    const mesh = await mesher.meshSolid(CUBE, { edgeLength: 0.5, secondOrder });
+    if (!mesh.secondOrder) throw new Error('hexes are linear');
+    const { hex, nodes, hexes } = mesh.secondOrder;
+    expect(hex).toBe(secondOrder);
+    const count = mesh.hexes.length / 8;
+    expect(hexes).toHaveLength(perHex * count);
+    expect(mesh.report.secondOrder).toMatchObject({ hex, nodes: nodes.length / 3, yielded: 0 });
+    // The first of the nodes on edges are between the first two corners.
+    const all = [...mesh.nodes, ...nodes];
+    const x = (node = -1): number => all[3 * node] ?? Number.NaN;
+    for (let h = 0; h < count; h++) {
+      const own = hexes.slice(perHex * h, perHex * (h + 1));
+      expect([...own.slice(0, 8)]).toEqual([...mesh.hexes.slice(8 * h, 8 * h + 8)]);
+      expect(x(own[8])).toBeCloseTo((x(own[0]) + x(own[1])) / 2, 9);
+    }
+    const file = await mesh.export(format);
+    expect(file.length).toBeGreaterThan(1000);
+    await expect(mesh.export('medit')).rejects.toMatchObject({ name: 'OptionsError' });
+  });
+
   it('have a measure each', async () => {
     const mesh = await mesher.meshSolid(CUBE, { edgeLength: 0.5 });
     for (const volume of await mesh.qualityOf('volume')) expect(volume).toBeCloseTo(0.125, 6);

@@ -44,7 +44,7 @@ export type {
   SurfaceInfo,
 } from './results.js';
 export { MOST_HEXES_OF_SOLIDS } from './solid-options.js';
-export type { Background, MeshSolidOptions, PlanSolidOptions, SolidOptions } from './solid-options.js';
+export type { Background, MeshSolidOptions, PlanSolidOptions, SecondOrderHex, SolidOptions } from './solid-options.js';
 export type {
   BodyReport,
   Captured,
@@ -52,6 +52,8 @@ export type {
   FeatureReport,
   FoundSolid,
   LostFeature,
+  SecondOrder,
+  SecondOrderReport,
   SolidAttempt,
   SolidCurve,
   SolidPlan,

@@ -5,7 +5,7 @@ import { InputError } from './errors.js';
 import type { CallOptions, HexFormat, OutputFormat } from './options.js';
 import type { HexArraysMade, HexData, HexedSolidData, MadeData, MadeHexData, QuadArrays, QuadData, SolidArrays } from './protocol.js';
 import type { AddedHexes, HexMetric, HexQuality, HexStage, MeshQuality, Metric } from './results.js';
-import type { SolidReport, SolidResult } from './solid-results.js';
+import type { SecondOrder, SolidReport, SolidResult } from './solid-results.js';
 
 /** Where a mesh was made, and from what. */
 export interface Origin {
@@ -182,6 +182,8 @@ export class HexedSolid extends MadeHexes {
   readonly groupedFaces: Uint32Array;
   /** The body of each hex, where the solid has several; else empty. Files have them as groups: `body-1` for the first. */
   readonly bodies: Uint32Array;
+  /** What makes them hexes of the second order, if those were asked for. */
+  readonly secondOrder: SecondOrder | null;
   /** What was done and what came of it, stage by stage. */
   readonly report: SolidReport;
 
@@ -190,6 +192,8 @@ export class HexedSolid extends MadeHexes {
     super(origin, data);
     this.groupedFaces = data.groupedFaces;
     this.bodies = data.bodies;
+    const hex = data.secondOrder.length === 20 * (data.hexes.length / 8) ? 'hex20' : 'hex27';
+    this.secondOrder = data.secondOrder.length > 0 ? { hex, nodes: data.middleNodes, hexes: data.secondOrder } : null;
     this.report = data.report;
   }
 
@@ -211,12 +215,14 @@ export class HexedSolid extends MadeHexes {
   /**
    * The mesh as a file, with the solid's surfaces as groups of boundary faces.
    *
-   * @throws {@link OptionsError} if there is no such format, or it holds no hexes.
+   * @throws {@link OptionsError} if there is no such format, or it holds no hexes, or none of the second order where they
+   * are.
    */
   export(format: HexFormat, options: CallOptions = {}): Promise<Uint8Array> {
     this.refuseDetached();
-    const { nodes, hexes, groupedFaces, bodies } = this;
-    const mesh: SolidArrays = { nodes, hexes, groupedFaces, bodies };
+    const { nodes, hexes, groupedFaces, bodies, secondOrder } = this;
+    const { nodes: middleNodes, hexes: all } = secondOrder ?? { nodes: new Float64Array(), hexes: new Uint32Array() };
+    const mesh: SolidArrays = { nodes, hexes, groupedFaces, bodies, middleNodes, secondOrder: all };
     return this.origin.engine.run((desk) => desk.call('exportSolid', { mesh, format }), options);
   }
 }

@@ -130,7 +130,7 @@ export class Meshing {
     }),
     meshSolid: ({ input, options }) => solidData(this.#bindings.meshSolid(this.#solid(input), options)),
     exportSolid: ({ mesh, format }) => {
-      const result = this.#bindings.exportSolid(mesh.nodes, mesh.hexes, mesh.groupedFaces, mesh.bodies, format);
+      const result = this.#bindings.exportSolid(mesh.nodes, mesh.hexes, mesh.groupedFaces, mesh.bodies, mesh.middleNodes, mesh.secondOrder, format);
       return { result, transfer: [result.buffer] };
     },
     solidDistances: ({ input, mesh }) => {
@@ -228,7 +228,7 @@ function hexData(refined: hexes.Hexes): Answer<HexData> {
 
 function solidData(hexed: solids.HexedSolid): Answer<HexedSolidData> {
   try {
-    const arrays = { groupedFaces: hexed.sides(), bodies: hexed.bodies() };
+    const arrays = { groupedFaces: hexed.sides(), bodies: hexed.bodies(), middleNodes: hexed.middleNodes(), secondOrder: hexed.secondOrder() };
     const told = { report: hexed.report() };
     return withMesh(hexed.arrays(), arrays, told);
   } finally {

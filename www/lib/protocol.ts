@@ -88,6 +88,9 @@ export interface HexData extends HexArraysMade, MadeHexData {
 /** A mesh of a solid as arrays. */
 export interface SolidArrays extends GroupedHexArrays {
   bodies: Uint32Array;
+  /** Of hexes of the second order, else empty: the nodes beside the corners, and all nodes of each hex. */
+  middleNodes: Float64Array;
+  secondOrder: Uint32Array;
 }
 
 /** A mesh of a solid. */

@@ -18,6 +18,9 @@ export const MOST_HEXES_OF_SOLIDS = 2_000_000;
  */
 export type Background = 'auto' | 'swept' | 'grid' | 'octree';
 
+/** A kind of hex of the second order: with a node on each edge, or on each edge, on each face and inside. */
+export type SecondOrderHex = 'hex20' | 'hex27';
+
 /** What the hexes that fill a solid are to be like. Lengths are in model units. */
 export interface SolidOptions {
   /** How long the edges of the hexes are to be, about. */
@@ -34,6 +37,8 @@ export interface SolidOptions {
   maxLevels?: number | undefined;
   /** Faces that meet at more than this, in degrees, are parts of different surfaces. Default 35. */
   featureAngle?: number | undefined;
+  /** Hexes of the second order, with nodes on edges and faces that are on the solid. By default hexes are linear. */
+  secondOrder?: SecondOrderHex | undefined;
   /** Refuse a mesh of more hexes than this. Default, and the most there can be, {@link MOST_HEXES_OF_SOLIDS}. */
   maxHexes?: number | undefined;
 }
@@ -57,6 +62,7 @@ const SOLID_OPTIONS: Readonly<Record<keyof SolidOptions, true>> = {
   maxDistance: true,
   maxLevels: true,
   featureAngle: true,
+  secondOrder: true,
   maxHexes: true,
 };
 

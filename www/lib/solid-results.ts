@@ -1,5 +1,5 @@
 import type { Bounds, Vector } from './options.js';
-import type { Background } from './solid-options.js';
+import type { Background, SecondOrderHex } from './solid-options.js';
 
 /** What is known of a solid before it is meshed. Lengths are in model units. */
 export interface SolidPlan {
@@ -88,6 +88,29 @@ export interface SolidReport {
   bodies: BodyReport[];
   /** What came of all of them. */
   result: SolidResult;
+  /** What came of the second order, if it was asked for. */
+  secondOrder?: SecondOrderReport;
+}
+
+/** What makes linear hexes hexes of the second order. Each has a positive Jacobian all over, by Bernstein's bound. */
+export interface SecondOrder {
+  hex: SecondOrderHex;
+  /** x, y, z of each node beside the corners. The first of them has the number after those of the mesh's `nodes`. */
+  nodes: Float64Array;
+  /** The 20 or 27 nodes of each hex in the order of VTK_QUADRATIC_HEXAHEDRON or VTK_TRIQUADRATIC_HEXAHEDRON. */
+  hexes: Uint32Array;
+}
+
+/** What came of the second order. */
+export interface SecondOrderReport {
+  hex: SecondOrderHex;
+  /** Nodes beside the corners, those of them on the solid, and those that had to stay off it for the sake of their hexes. */
+  nodes: number;
+  onSolid: number;
+  yielded: number;
+  /** How far the farthest of these is from the solid, and where. */
+  farthest: number;
+  place: Vector | null;
 }
 
 /** What was done to fill one body. */
