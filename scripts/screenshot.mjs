@@ -1,5 +1,5 @@
-// Takes the pictures of the page that ship with the project, from the page itself: those in the README, of quads and of
-// hexes, and a small one of each example, on light and on dark ground.
+// Takes the pictures of the page that ship with the project, from the page itself: those in the README, of quads, of
+// hexes and of a solid, and a small one of each example, on light and on dark ground.
 //
 //     npm run screenshot      (the page has to be built: npm run build; then build it again)
 
@@ -13,6 +13,7 @@ import { serveFolder } from './static-server.mjs';
 const SITE = join(root, 'site');
 const PICTURE = join(root, 'docs', 'screenshot.png');
 const HEXES = join(root, 'docs', 'hexes.png');
+const SOLID = join(root, 'docs', 'solid.png');
 const THUMBNAILS = join(root, 'www', 'app', 'thumbnails');
 
 /** A pawn with its head and its foot refined: coarse enough that transitions are seen. */
@@ -20,6 +21,9 @@ const LINK = '#example=pawn&levels=1&region=sphere:1.7468,-1.36,0.52,0.09:level=
 
 /** A box of hexes around Spot, refined at its surface and cut open along its middle. */
 const HEX_LINK = '#example=spot&job=hexes&spacing=0.2&margin=0.3&at-surface=2&method=two&section=1,0,0,0';
+
+/** A milled part filled with hexes, cut open and coloured by quality. */
+const SOLID_LINK = '#example=milled&job=solid&edge-length=0.4&colour=quality&section=0,-1,0,-5';
 
 /** Presses of an arrow key from the corner that the page starts with to the model's better side. */
 const TURN = { spot: 15, bunny: 6 };
@@ -44,13 +48,14 @@ await main(async () => {
   try {
     await takePicture(browser, `${server.url}${LINK}`, PICTURE, 0);
     await takePicture(browser, `${server.url}${HEX_LINK}`, HEXES, 0);
+    await takePicture(browser, `${server.url}${SOLID_LINK}`, SOLID, 0);
     mkdirSync(THUMBNAILS, { recursive: true });
     for (const scheme of ['light', 'dark']) await takeThumbnails(browser, server.url, scheme);
   } finally {
     await browser.close();
     await server.close();
   }
-  console.log('docs/screenshot.png, docs/hexes.png and www/app/thumbnails/ hold the pictures');
+  console.log('docs/screenshot.png, docs/hexes.png, docs/solid.png and www/app/thumbnails/ hold the pictures');
 });
 
 async function open(browser, address, viewport, colorScheme) {

@@ -28,7 +28,6 @@ export const EXAMPLES: readonly Example[] = [
   { id: 'rook', file: 'rook.obj', label: 'Rook', faces: '777 quads and triangles', ...OPENSUBDIV },
   { id: 'bishop', file: 'bishop.obj', label: 'Bishop', faces: '968 quads and triangles', ...OPENSUBDIV },
   { id: 'pawn', file: 'pawn.obj', label: 'Pawn', faces: '588 quads', ...OPENSUBDIV },
-  { id: 'helmet', file: 'helmet.obj', label: 'Helmet', faces: '58 quads', ...OPENSUBDIV },
   {
     id: 'bunny', file: 'bunny.obj', label: 'Bunny', faces: '6,966 triangles',
     by: 'Stanford Computer Graphics Laboratory', licence: 'Free with acknowledgement', source: 'https://graphics.stanford.edu/data/3Dscanrep/', up: 'y',
@@ -36,6 +35,10 @@ export const EXAMPLES: readonly Example[] = [
   {
     id: 'plate', file: '3holes.obj', label: 'Plate', faces: '3,982 triangles',
     by: 'Marco Livesu, cinolib', licence: 'MIT', source: 'https://github.com/mlivesu/cinolib', up: 'z',
+  },
+  {
+    id: 'milled', file: 'MFCAD_3-3-3-3-3-23.obj', label: 'Milled part', faces: '2,676 triangles',
+    by: 'Weijuan Cao and others, MFCAD', licence: 'MIT', source: 'https://github.com/hducg/MFCAD', up: 'z',
   },
 ];
 

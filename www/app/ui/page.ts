@@ -26,8 +26,8 @@ const EXAMPLE_URLS = Object.fromEntries(
   Object.entries(
     import.meta.glob<string>(
       [
-        '../../../examples/models/quads/{bishop,car,helmet,pawn,rook}.obj',
-        '../../../examples/models/solids/{3holes,bunny,spot}.obj',
+        '../../../examples/models/quads/{bishop,car,pawn,rook}.obj',
+        '../../../examples/models/solids/{3holes,MFCAD_3-3-3-3-3-23,bunny,spot}.obj',
       ],
       { query: '?url', import: 'default', eager: true },
     ),
