@@ -1,8 +1,9 @@
 //! Meshes solids, and prints a table of how well and how fast.
 //!
 //! `cargo run --release --example solids -- FOLDER [CELLS] [NAME...]` meshes every OBJ file of FOLDER, or those whose
-//! names hold a NAME, with edges of 1/CELLS (48) of the longest side on one thread. `-- parts [COUNT] [CELLS]` does so
-//! with COUNT (200) random parts at a coarse edge length (CELLS is 12), and fails if one is not meshed.
+//! names hold a NAME, with edges of 1/CELLS (48) of the longest side on one thread. `-- parts [COUNT] [CELLS] [FIRST]` does
+//! so with COUNT (200) random parts from the FIRST (0) on at a coarse edge length (CELLS is 12), and fails if one is not
+//! meshed.
 
 #[path = "../tests/native/hexing/csg.rs"]
 mod csg;
@@ -15,7 +16,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use hexmill::Silent;
-use hexmill::hexing::{AttemptReport, Background, BodyReport, HexingOptions, hex_solid};
+use hexmill::hexing::{AttemptReport, Background, BodyReport, HexingOptions, ResultReport, hex_solid};
 use hexmill::io::{Format, read};
 use hexmill::mesh::{PolygonMesh, check_hexes};
 
@@ -28,13 +29,15 @@ type Failure = Box<dyn Error + Send + Sync>;
 
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
-    let source = arguments.next().ok_or("wanted: FOLDER [CELLS] [NAME...], or parts [COUNT] [CELLS]")?;
+    let source =
+        arguments.next().ok_or("wanted: FOLDER [CELLS] [NAME...], or parts [COUNT] [CELLS] [FIRST]")?;
     let rest: Vec<String> = arguments.collect();
     let number = |k: usize, default: f64| rest.get(k).map_or(Ok(default), |text| text.parse::<f64>());
     let mut table = Table::new()?;
     if source == "parts" {
         let cells = number(1, 12.0)?;
-        for seed in 0..number(0, 200.0)? as u64 {
+        let first = number(2, 0.0)? as u64;
+        for seed in first..first + number(0, 200.0)? as u64 {
             table.row(&format!("part {seed}"), cells, || Ok(csg::random_part(seed)));
         }
     } else {
@@ -104,12 +107,19 @@ fn cells_of_row(surface: &PolygonMesh, cells: f64) -> Result<Vec<String>, Failur
         format!("{:.3}", made.worst),
         format!("{:.3}", made.mean),
         format!("{:.3}", 100.0 * made.distance.hausdorff() / (bounds.max - bounds.min).length()),
-        format!("{} of {}", made.euler, made.solid_euler),
+        euler(made),
         format!("{} of {}", curves.captured, curves.found),
         format!("{} of {}", surfaces.captured, surfaces.found),
         hexed.report.bodies.iter().map(tries).collect::<Vec<_>>().join(", "),
         format!("{seconds:.1}"),
     ])
+}
+
+/// The Euler number, and how many bodies are not in the mesh, since they are too thin.
+fn euler(made: &ResultReport) -> String {
+    let lost = made.lost_bodies.len();
+    let lost = if lost > 0 { format!(", bodies lost: {lost}") } else { String::new() };
+    format!("{} of {}{lost}", made.euler, made.solid_euler)
 }
 
 /// The attempts of a body: of each the background, its levels if there are several, and marks where it was given up; the

@@ -5,6 +5,7 @@ use super::core::{Core, CoreOptions, CoreReport, core};
 use super::correspondence::{Correspondence, Reduction, correspond};
 use super::fit::{FitOptions, fit};
 use super::ground::{Plan, Site};
+use super::merit::Bar;
 use super::misses::{FineCells, boundary_triangles, misses, too_far};
 use super::options::HexingError;
 use super::report::{AttemptReport, FeatureReport, FitCounts, MeshedReport, SheetCounts};
@@ -28,21 +29,17 @@ pub(super) struct Meshed {
     pub(super) failures: Vec<Failure>,
 }
 
-/// How well an attempt did but for its cells; less is better: how far it is from the solid's Euler number, then how many
-/// curves and surfaces it lost.
-pub(super) type Rank = (u64, usize);
-
 /// How far a core is from the solid's kind.
 pub(super) fn off_euler(core: &CoreReport) -> u64 {
     core.euler.abs_diff(core.solid_euler)
 }
 
-/// Makes a mesh out of a background. It is given up as soon as it ranks behind `bar`.
+/// Makes a mesh out of a background. It is given up as soon as it is known not to reach `bar`.
 pub(super) fn attempt(
     site: &Site<'_>,
     plan: &Plan,
     background: OctreeMesh,
-    bar: Option<Rank>,
+    bar: Option<Bar>,
     monitor: &dyn Monitor,
 ) -> Result<(AttemptReport, Option<Meshed>), HexingError> {
     let (solid, options) = (site.solid, site.options);
@@ -60,18 +57,16 @@ pub(super) fn attempt(
     if cut.mesh.hexes.is_empty() {
         return Err(HexingError::NothingLeft { edge_length: options.edge_length });
     }
-    let is_behind = |rank: Rank| bar.is_some_and(|bar| rank > bar);
     let off = off_euler(&cut.report);
-    if is_behind((off, 0)) {
+    let is_behind = |features: Option<&FeatureReport>| bar.is_some_and(|bar| bar.is_above(off, features));
+    if is_behind(None) {
         return Ok((report, None));
     }
 
     let mut mesh = std::mem::take(&mut cut.mesh);
     let mut on = correspond(&mesh, solid, monitor)?;
-    let features = FeatureReport::new(solid, &on.reduction);
-    let lost = features.lost();
-    report.features = Some(features);
-    if is_behind((off, lost)) {
+    report.features = Some(FeatureReport::new(solid, &on.reduction));
+    if is_behind(report.features.as_ref()) {
         return Ok((report, None));
     }
 

@@ -4,14 +4,16 @@
 //! 2. Where that missed something, cells a level smaller there, as often as the options allow, and as long as it helps.
 //!    Of a core that is not of the solid's kind it is not always known where it differs: then thin walls, narrow gaps and
 //!    short curves are refined.
-//! 3. Where cells are bad or something is still missed: grids whose lines stand elsewhere; instead of a sweep, a grid.
+//! 3. Where cells are bad, or mesh and solid still too far from each other: grids whose lines stand elsewhere; instead of
+//!    a sweep, a grid.
 //!
-//! The best attempt is kept. Those that turn out to rank behind another are given up at once; and none is begun that
-//! would be many times as large as the first.
+//! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and none is
+//! begun that would be many times as large as the first.
 
-use super::attempt::{Meshed, Rank, attempt, off_euler};
+use super::attempt::{Meshed, attempt, off_euler};
 use super::background::{Background, BackgroundError, retry};
 use super::ground::{Plan, Site};
+use super::merit::{Bar, GOOD, is_better, is_far, worst};
 use super::options::{HexingError, HexingOptions};
 use super::report::{AttemptReport, BodyReport};
 use crate::Monitor;
@@ -20,8 +22,8 @@ use crate::solid::SolidModel;
 /// How the lines of a grid are moved from try to try, as shares of an edge.
 const SHIFTS: [[f64; 3]; 2] = [[0.5; 3], [0.25, 0.5, 0.75]];
 
-/// A least scaled Jacobian with which there is no other try.
-const GOOD: f64 = 0.35;
+/// A least scaled Jacobian with which there is no grid tried instead of a sweep: it captures less.
+const POOR: f64 = 0.2;
 
 /// The background of another try has at most so many times the hexes of the first.
 const GROWTH: u64 = 4;
@@ -69,13 +71,13 @@ pub(super) fn mesh_body(
             break;
         }
     }
-    let shifts: &[[f64; 3]] = match site.choice.kind {
-        Background::Grid => &SHIFTS,
-        Background::Swept if site.may_be_grid() => &[[0.0; 3]],
-        _ => &[],
+    let (shifts, least): (&[[f64; 3]], f64) = match site.choice.kind {
+        Background::Grid => (&SHIFTS, GOOD),
+        Background::Swept if site.may_be_grid() => (&[[0.0; 3]], POOR),
+        _ => (&[], 0.0),
     };
     for &shift in shifts {
-        if !search.is_good() {
+        if !search.is_good(least) {
             search.another(Plan { shift, ..Plan::of(Background::Grid) })?;
         }
     }
@@ -98,7 +100,7 @@ impl Search<'_> {
     /// Makes an attempt; keeps it if it is better than the best so far.
     fn attempt(&mut self, plan: Plan, max_hexes: u64) -> Result<(), HexingError> {
         let background = self.site.background(&plan, max_hexes, self.monitor)?;
-        let bar = self.best_report().map(rank);
+        let bar = self.best_report().map(Bar::of);
         let (report, meshed) = match attempt(self.site, &plan, background, bar, self.monitor) {
             Err(HexingError::Tangled(hexes)) => {
                 self.tangled = Some(hexes);
@@ -149,10 +151,10 @@ impl Search<'_> {
         self.best.as_ref().map(|best| best.number)
     }
 
-    /// Is there nothing that another try could mend?
-    fn is_good(&self) -> bool {
+    /// Is there nothing that another try could mend, where the worst cell may be so bad?
+    fn is_good(&self, least: f64) -> bool {
         self.best_report().is_some_and(|best| {
-            rank(best) == (0, 0) && !is_far(best, self.site.options) && worst(best) >= GOOD
+            off_euler(&best.core) == 0 && !is_far(best, self.site.options) && worst(best) >= least
         })
     }
 
@@ -166,25 +168,4 @@ impl Search<'_> {
         };
         Body { best: self.best, report }
     }
-}
-
-fn rank(report: &AttemptReport) -> Rank {
-    (off_euler(&report.core), report.features.as_ref().map_or(usize::MAX, |features| features.lost()))
-}
-
-/// Are mesh and solid farther from each other than allowed?
-fn is_far(report: &AttemptReport, options: &HexingOptions) -> bool {
-    let distance = report.mesh.as_ref().map_or(f64::INFINITY, |mesh| mesh.distance.hausdorff());
-    options.max_distance.is_some_and(|limit| distance > limit)
-}
-
-fn worst(report: &AttemptReport) -> f64 {
-    report.mesh.as_ref().map_or(f64::NEG_INFINITY, |mesh| mesh.worst)
-}
-
-/// Is `a` better than `b`: nearer to the solid's Euler number; then with fewer curves and surfaces lost; then within the
-/// distance allowed, where `b` is not; then with a better worst cell?
-fn is_better(a: &AttemptReport, b: &AttemptReport, options: &HexingOptions) -> bool {
-    let key = |report| (rank(report), is_far(report, options));
-    key(a) < key(b) || key(a) == key(b) && worst(a) > worst(b)
 }

@@ -17,6 +17,7 @@ mod body;
 mod forecast;
 mod ground;
 mod groups;
+mod merit;
 mod misses;
 mod options;
 mod pipeline;

@@ -100,7 +100,9 @@ impl Reduction {
     pub fn nearest_on_surface(&self, solid: &SolidModel, representative: SurfaceId, p: Point) -> Foot {
         let mut best = solid.nearest_on_surface(representative, p);
         for &member in self.members(representative) {
-            if member != representative {
+            // Of the many that may have become one most are far off.
+            let bounds = &solid.surfaces()[member.index()].bounds;
+            if member != representative && bounds.distance_squared(p) < best.distance * best.distance {
                 let foot = solid.nearest_on_surface(member, p);
                 if foot.distance < best.distance {
                     best = foot;

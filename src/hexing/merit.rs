@@ -1,0 +1,154 @@
+//! Which of two attempts a user would rather have.
+//!
+//! First the one that is nearer to the solid's Euler number, then one within the distance allowed. Between two like that
+//! small things and great ones are weighed against each other: a curve lost that is shorter than a cell is no reason to
+//! take a mesh that is far off elsewhere. What an attempt costs is the sum of
+//!
+//! | what | as |
+//! |---|---|
+//! | how far mesh and solid are from each other | edges |
+//! | curves and surfaces that are lost | share of all |
+//! | the mean scaled Jacobian | what it lacks to 1, twice |
+//! | the least scaled Jacobian | what it lacks to [`GOOD`], as a share of that |
+
+use std::cmp::Ordering;
+
+use super::attempt::off_euler;
+use super::options::HexingOptions;
+use super::report::{AttemptReport, FeatureReport};
+
+/// A least scaled Jacobian with which there is nothing to mend.
+pub(super) const GOOD: f64 = 0.35;
+
+/// What a lack of mean scaled Jacobian weighs.
+const MEAN: f64 = 2.0;
+
+/// An attempt that loses a greater share of the features than another by this is given up before it is fitted.
+const LOSS: f64 = 0.02;
+
+/// What an attempt has to reach to be worth going on with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bar {
+    off_euler: u64,
+    lost: f64,
+}
+
+impl Bar {
+    /// That of the best attempt so far.
+    pub(super) fn of(best: &AttemptReport) -> Self {
+        Self { off_euler: off_euler(&best.core), lost: lost(best.features.as_ref()) }
+    }
+
+    /// Is a core that is so far from the solid's Euler number, with these features if they are known, not worth it?
+    pub(super) fn is_above(&self, off_euler: u64, features: Option<&FeatureReport>) -> bool {
+        let loses_more = features.is_some() && lost(features) > self.lost + LOSS;
+        off_euler > self.off_euler || off_euler == self.off_euler && loses_more
+    }
+}
+
+/// The share of the curves and surfaces that are lost; all of them where nobody looked.
+fn lost(features: Option<&FeatureReport>) -> f64 {
+    features.map_or(1.0, |features| {
+        let found = features.curves.found + features.surfaces.found;
+        features.lost() as f64 / found.max(1) as f64
+    })
+}
+
+/// Are mesh and solid farther from each other than allowed?
+pub(super) fn is_far(report: &AttemptReport, options: &HexingOptions) -> bool {
+    options.max_distance.is_some_and(|limit| distance(report) > limit)
+}
+
+/// The least scaled Jacobian.
+pub(super) fn worst(report: &AttemptReport) -> f64 {
+    report.mesh.as_ref().map_or(f64::NEG_INFINITY, |mesh| mesh.worst)
+}
+
+fn distance(report: &AttemptReport) -> f64 {
+    report.mesh.as_ref().map_or(f64::INFINITY, |mesh| mesh.distance.hausdorff())
+}
+
+/// Is `a` better than `b`? One without a mesh is better than none.
+pub(super) fn is_better(a: &AttemptReport, b: &AttemptReport, options: &HexingOptions) -> bool {
+    let first = |report: &AttemptReport| (off_euler(&report.core), is_far(report, options));
+    let order = first(a).cmp(&first(b)).then(cost(a, options).total_cmp(&cost(b, options)));
+    order == Ordering::Less
+}
+
+fn cost(report: &AttemptReport, options: &HexingOptions) -> f64 {
+    let Some(mesh) = &report.mesh else { return f64::INFINITY };
+    let lacking = (GOOD - mesh.worst).max(0.0) / GOOD;
+    distance(report) / options.edge_length
+        + lost(report.features.as_ref())
+        + MEAN * (1.0 - mesh.mean)
+        + lacking
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::core::CoreReport;
+    use super::super::report::{Captured, FitCounts, LostFeature, MeshedReport, SheetCounts};
+    use super::*;
+    use crate::mesh::Distances;
+
+    fn options() -> HexingOptions {
+        HexingOptions { edge_length: 2.0, ..HexingOptions::default() }
+    }
+
+    /// An attempt of a solid with 70 curves and 30 surfaces that lost so many curves.
+    fn attempt(euler: i64, lost: u32, distance: f64, worst: f64, mean: f64) -> AttemptReport {
+        let mut apart = Distances::none();
+        apart.mesh_to_surface.max = distance;
+        let suppressed = (0..lost).map(|id| LostFeature { id, place: [0.0; 3], size: 1.0 }).collect();
+        let features = FeatureReport {
+            curves: Captured { found: 70, captured: 70 - lost as usize },
+            surfaces: Captured { found: 30, captured: 30 },
+            suppressed,
+            ..FeatureReport::default()
+        };
+        let mesh = MeshedReport {
+            sheets: SheetCounts::default(),
+            fit: FitCounts::default(),
+            hexes: 1000,
+            worst,
+            mean,
+            distance: apart,
+        };
+        AttemptReport {
+            core: CoreReport { euler, solid_euler: 2, ..CoreReport::default() },
+            features: Some(features),
+            mesh: Some(mesh),
+            ..AttemptReport::default()
+        }
+    }
+
+    #[test]
+    fn the_right_euler_number_comes_first() {
+        let right = attempt(2, 9, 1.0, 0.1, 0.7);
+        assert!(is_better(&right, &attempt(0, 0, 0.0, 0.9, 0.99), &options()));
+        assert!(!is_better(&attempt(0, 0, 0.0, 0.9, 0.99), &right, &options()));
+    }
+
+    #[test]
+    fn one_small_feature_does_not_outweigh_a_far_worse_mesh() {
+        let (lost_one, all_kept) = (attempt(2, 1, 0.9, 0.44, 0.93), attempt(2, 0, 2.9, 0.4, 0.87));
+        assert!(is_better(&lost_one, &all_kept, &options()));
+        // Of two that are alike else it does count.
+        assert!(is_better(&attempt(2, 0, 0.9, 0.44, 0.93), &lost_one, &options()));
+    }
+
+    #[test]
+    fn what_is_within_the_distance_allowed_is_better() {
+        let allowed = HexingOptions { max_distance: Some(0.1), ..options() };
+        let (near, far) = (attempt(2, 0, 0.09, 0.2, 0.8), attempt(2, 0, 0.11, 0.6, 0.95));
+        assert!(is_better(&near, &far, &allowed) && is_better(&far, &near, &options()));
+    }
+
+    #[test]
+    fn attempts_that_lose_much_more_are_not_gone_on_with() {
+        let bar = Bar::of(&attempt(2, 3, 0.5, 0.4, 0.9));
+        let losing = |lost| attempt(2, lost, 0.0, 0.0, 0.0).features;
+        assert!(!bar.is_above(0, None) && bar.is_above(2, None));
+        assert!(!bar.is_above(0, losing(4).as_ref()) && bar.is_above(0, losing(6).as_ref()));
+    }
+}
