@@ -163,7 +163,7 @@ impl Closing<'_> {
             let elements = batch.iter().flat_map(|&k| 8 * k..8 * k + 8);
             let marked: Vec<u32> = elements.filter(|&e| !level.is_refined[e as usize]).collect();
             self.check_size(depth + 2, marked.len())?;
-            self.forest.split(depth, &marked);
+            self.forest.split_within(depth, &marked, self.monitor)?;
             count += marked.len();
         }
         self.monitor.proceed()?;

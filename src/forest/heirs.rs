@@ -4,17 +4,24 @@ use super::octree::{HexLevel, LevelEdges, LevelFaces, Sides};
 use super::quadtree::append;
 use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES, FACE_ACROSS, FACES, FACES_AT_EDGE, apart};
 use crate::mesh::{EdgeId, FaceId, NodeId};
-use crate::parallel;
+use crate::{Cancelled, Monitor, parallel};
 
 /// Makes the edges and faces of `child` that the splits of `parent` have called for.
 ///
 /// New edges come in this order: halves of split edges, edges inside split faces, edges inside split elements; new
 /// faces: quarters of split faces, faces inside split elements.
-pub(super) fn inherit(parent: &mut HexLevel, child: &mut HexLevel) {
+///
+/// # Errors
+/// If the monitor stops it; then the levels are of no use any more.
+pub(super) fn inherit(
+    parent: &mut HexLevel,
+    child: &mut HexLevel,
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
     let known = child.sides.len() / 8;
     let marked = &parent.refined[known..];
     if marked.is_empty() {
-        return;
+        return Ok(());
     }
     let (edges, faces) = (&mut parent.edges, &mut parent.faces);
     let (first_half, first_quarter) = (child.edges.ends.len(), child.faces.nodes.len());
@@ -36,27 +43,38 @@ pub(super) fn inherit(parent: &mut HexLevel, child: &mut HexLevel) {
         first_edge: first_inside + 4 * new_faces.len(),
         first_face: first_quarter + 4 * new_faces.len(),
     };
-    let halves = parallel::collect(new_edges.len(), |k| heirs.halves(new_edges[k]));
-    let in_faces = parallel::collect(new_faces.len(), |k| heirs.edges_in_face(new_faces[k]));
-    let in_elements = parallel::collect(marked.len(), |k| heirs.edges_in_element(k));
-    let quarters = parallel::collect(new_faces.len(), |k| heirs.quarters(new_faces[k]));
+    let halves = parallel::try_collect(new_edges.len(), monitor, |k| heirs.halves(new_edges[k]))?;
+    let in_faces = parallel::try_collect(new_faces.len(), monitor, |k| heirs.edges_in_face(new_faces[k]))?;
+    let in_elements = parallel::try_collect(marked.len(), monitor, |k| heirs.edges_in_element(k))?;
+    let quarters = parallel::try_collect(new_faces.len(), monitor, |k| heirs.quarters(new_faces[k]))?;
     let (quarter_nodes, quarter_edges): (Vec<_>, Vec<_>) = quarters.into_iter().unzip();
-    let walls = parallel::collect(marked.len(), |k| heirs.faces_in_element(k, marked[k]));
+    monitor.proceed()?;
+    let walls = parallel::try_collect(marked.len(), monitor, |k| heirs.faces_in_element(k, marked[k]))?;
     let (wall_nodes, wall_edges): (Vec<_>, Vec<_>) = walls.into_iter().unzip();
-    let sides = parallel::collect(marked.len(), |k| heirs.sides(k, marked[k]));
+    monitor.proceed()?;
+    let sides = parallel::try_collect(marked.len(), monitor, |k| heirs.sides(k, marked[k]))?;
 
-    append(&mut child.edges.ends, halves.into_flattened());
-    append(&mut child.edges.ends, in_faces.into_flattened());
-    append(&mut child.edges.ends, in_elements.into_flattened());
+    let ends = [halves.into_flattened(), in_faces.into_flattened(), in_elements.into_flattened()];
+    for ends in ends {
+        append(&mut child.edges.ends, ends);
+        monitor.proceed()?;
+    }
     child.edges.settle();
-    append(&mut child.faces.nodes, quarter_nodes.into_flattened());
-    append(&mut child.faces.nodes, wall_nodes.into_flattened());
-    append(&mut child.faces.edges, quarter_edges.into_flattened());
-    append(&mut child.faces.edges, wall_edges.into_flattened());
+    monitor.proceed()?;
+    for nodes in [quarter_nodes.into_flattened(), wall_nodes.into_flattened()] {
+        append(&mut child.faces.nodes, nodes);
+        monitor.proceed()?;
+    }
+    for edges in [quarter_edges.into_flattened(), wall_edges.into_flattened()] {
+        append(&mut child.faces.edges, edges);
+        monitor.proceed()?;
+    }
     child.faces.settle();
+    monitor.proceed()?;
     append(&mut child.sides, sides.into_flattened());
     parent.edges.halved = parent.edges.split.len();
     parent.faces.quartered = parent.faces.split.len();
+    monitor.proceed()
 }
 
 /// What split edges, faces and elements leave to the next level.

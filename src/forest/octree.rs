@@ -24,7 +24,7 @@ use super::quadtree::{UNDIVIDED, append, center, midpoint};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES_OF_FACE, FACE_ACROSS, apart};
 use crate::mesh::{EdgeId, FaceId, HexId, NodeId};
-use crate::parallel;
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// What a node of an element is to the element's parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -214,14 +214,27 @@ impl HexForest {
 
     /// Splits the elements `marked` of `levels[depth]`, none of which is refined yet, into eight each.
     pub fn split(&mut self, depth: usize, marked: &[u32]) {
+        self.split_within(depth, marked, &Silent).expect("nobody stops it");
+    }
+
+    /// As [`HexForest::split`], told by a monitor when to stop.
+    ///
+    /// # Errors
+    /// If the monitor stops it; then the forest is of no use any more.
+    pub fn split_within(
+        &mut self,
+        depth: usize,
+        marked: &[u32],
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
         if marked.is_empty() {
-            return;
+            return Ok(());
         }
         match depth.checked_sub(1) {
-            None => inherit(&mut self.base, &mut self.levels[0]),
+            None => inherit(&mut self.base, &mut self.levels[0], monitor)?,
             Some(above) => {
                 let (parents, children) = self.levels.split_at_mut(depth);
-                inherit(&mut parents[above], &mut children[0]);
+                inherit(&mut parents[above], &mut children[0], monitor)?;
             }
         }
         if depth + 1 == self.levels.len() {
@@ -229,6 +242,7 @@ impl HexForest {
         }
         let (parents, children) = self.levels.split_at_mut(depth + 1);
         refine(&mut self.positions, &mut parents[depth], &mut children[0], marked);
+        Ok(())
     }
 }
 

@@ -116,11 +116,12 @@ pub fn optimize(
     options: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<OptimizeReport, Cancelled> {
-    let mut problem = Problem::new(positions, hexes, |n| movable[n.index()] && !constraints.is_fixed(n));
-    let before = problem.state();
+    let moves = |n: NodeId| movable[n.index()] && !constraints.is_fixed(n);
+    let mut problem = Problem::within(positions, hexes, moves, monitor)?;
+    let before = problem.state(monitor)?;
     let mut sweeps = untangle(&mut problem, constraints, options, monitor)?;
     sweeps += smooth(&mut problem, constraints, options, monitor)?;
-    let mut after = problem.state();
+    let mut after = problem.state(monitor)?;
     if after.is_worse_than(&before) {
         problem.points.clone_from(&problem.anchors);
         after = before.clone();

@@ -5,10 +5,14 @@ use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::{Certainty, is_positive, scaled_jacobian};
 use crate::mesh::{HexId, NodeId};
-use crate::parallel;
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// No node of the problem.
 const NONE: u32 = u32::MAX;
+
+/// Nodes that are coloured between two questions whether to stop.
+const ASKED: u32 = 1 << 14;
 
 /// The cells around the movable nodes. Nodes of the problem are numbered in the mesh's order, movable ones first.
 pub(crate) struct Problem {
@@ -25,9 +29,9 @@ pub(crate) struct Problem {
     pub(crate) positive: Vec<bool>,
     /// The cells whose inside is looked at whenever one of their nodes moves.
     pub(crate) guarded: Vec<bool>,
-    /// Where the cells of each movable node start in `around`: a cell, and which of its corners the node is.
+    /// Where the cells of each movable node start in `around`: eight times a cell, and which of its corners the node is.
     starts: Vec<u32>,
-    around: Vec<(u32, u8)>,
+    around: Vec<u32>,
     /// Movable nodes by colour, ascending: two of one colour share no cell. Sweeps follow this order.
     pub(crate) colours: Vec<Vec<u32>>,
 }
@@ -39,7 +43,17 @@ impl Problem {
         hexes: &[[NodeId; 8]],
         moves: impl Fn(NodeId) -> bool + Sync,
     ) -> Self {
-        let touched = parallel::filter(hexes.len(), |h| hexes[h].iter().any(|&n| moves(n)));
+        Self::within(positions, hexes, moves, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`Problem::new`], unless the monitor stops it.
+    pub(crate) fn within(
+        positions: &[Point],
+        hexes: &[[NodeId; 8]],
+        moves: impl Fn(NodeId) -> bool + Sync,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let touched = parallel::try_filter(hexes.len(), monitor, |h| hexes[h].iter().any(|&n| moves(n)))?;
         let mut used = vec![false; positions.len()];
         for &h in &touched {
             for n in hexes[h as usize] {
@@ -53,18 +67,23 @@ impl Problem {
         let mut nodes: Vec<NodeId> = of_kind(true).collect();
         let movable_count = nodes.len();
         nodes.extend(of_kind(false));
+        monitor.proceed()?;
         let mut local = vec![NONE; positions.len()];
         for (i, n) in (0u32..).zip(&nodes) {
             local[n.index()] = i;
         }
-        let cells: Vec<[u32; 8]> =
-            touched.iter().map(|&h| hexes[h as usize].map(|n| local[n.index()])).collect();
-        let points: Vec<Point> = nodes.iter().map(|n| positions[n.index()]).collect();
-        let (starts, around) = stars(&cells, movable_count);
+        let cells: Vec<[u32; 8]> = parallel::try_collect(touched.len(), monitor, |c| {
+            hexes[touched[c] as usize].map(|n| local[n.index()])
+        })?;
+        drop(local);
+        let points: Vec<Point> =
+            parallel::try_collect(nodes.len(), monitor, |n| positions[nodes[n].index()])?;
+        let (starts, around) = stars(&cells, movable_count, monitor)?;
+        let size = |c: usize| cell_size(&cells[c].map(|n| points[n as usize]));
         let mut problem = Self {
             anchors: points.clone(),
             hexes: touched.into_iter().map(HexId).collect(),
-            volume: parallel::collect(cells.len(), |c| cell_size(&cells[c].map(|n| points[n as usize]))),
+            volume: parallel::try_collect(cells.len(), monitor, size)?,
             positive: Vec::new(),
             guarded: vec![false; cells.len()],
             colours: Vec::new(),
@@ -74,9 +93,10 @@ impl Problem {
             starts,
             around,
         };
-        problem.colours = problem.colour();
-        problem.find_positive();
-        problem
+        problem.colours = problem.colour(monitor)?;
+        problem.positive =
+            parallel::try_collect(problem.cells.len(), monitor, |cell| problem.is_positive(cell))?;
+        Ok(problem)
     }
 
     /// How many nodes may move: they are numbered first.
@@ -85,8 +105,9 @@ impl Problem {
     }
 
     /// The cells around a movable node, each with the node's corner.
-    pub(crate) fn star(&self, node: u32) -> &[(u32, u8)] {
-        &self.around[self.starts[node as usize] as usize..self.starts[node as usize + 1] as usize]
+    pub(crate) fn star(&self, node: u32) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let range = self.starts[node as usize] as usize..self.starts[node as usize + 1] as usize;
+        self.around[range].iter().map(|&place| (place as usize / 8, place as usize % 8))
     }
 
     /// Where a movable node of the mesh is.
@@ -114,23 +135,33 @@ impl Problem {
     }
 
     /// The scaled Jacobian of each cell.
-    pub(crate) fn scaled_jacobians(&self) -> Vec<f64> {
-        parallel::collect(self.cells.len(), |cell| scaled_jacobian(&self.corners(cell)))
+    pub(crate) fn scaled_jacobians(&self, monitor: &dyn Monitor) -> Result<Vec<f64>, Cancelled> {
+        parallel::try_collect(self.cells.len(), monitor, |cell| scaled_jacobian(&self.corners(cell)))
     }
 
     /// The cells around the nodes, each once, ascending.
     pub(crate) fn cells_around(&self, nodes: &[u32]) -> Vec<u32> {
-        let mut is_near = vec![false; self.cells.len()];
-        for &node in nodes {
-            self.star(node).iter().for_each(|&(cell, _)| is_near[cell as usize] = true);
-        }
-        (0..self.cells.len() as u32).filter(|&cell| is_near[cell as usize]).collect()
+        self.cells_around_within(nodes, &Silent).expect("nobody stops it")
     }
 
-    /// How the cells are now.
-    pub(crate) fn state(&mut self) -> State {
-        self.find_positive();
-        State { jacobians: self.scaled_jacobians(), positive: self.positive.clone() }
+    /// As [`Problem::cells_around`], unless the monitor stops it.
+    pub(crate) fn cells_around_within(
+        &self,
+        nodes: &[u32],
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<u32>, Cancelled> {
+        let mut is_near = vec![false; self.cells.len()];
+        for batch in batches(nodes.len(), monitor) {
+            for &node in &nodes[batch?] {
+                self.star(node).for_each(|(cell, _)| is_near[cell] = true);
+            }
+        }
+        parallel::try_filter(self.cells.len(), monitor, |cell| is_near[cell])
+    }
+
+    /// How the cells are now; `positive` is up to date.
+    pub(crate) fn state(&self, monitor: &dyn Monitor) -> Result<State, Cancelled> {
+        Ok(State { jacobians: self.scaled_jacobians(monitor)?, positive: self.positive.clone() })
     }
 
     /// Has the nodes of lower rank swept first: colours are split by ranks, which are below `ranks`.
@@ -145,13 +176,16 @@ impl Problem {
     }
 
     /// Greedy colours in the order of nodes.
-    fn colour(&self) -> Vec<Vec<u32>> {
+    fn colour(&self, monitor: &dyn Monitor) -> Result<Vec<Vec<u32>>, Cancelled> {
         let mut colour_of = vec![NONE; self.movable()];
         let mut colours: Vec<Vec<u32>> = Vec::new();
         let mut taken_by: Vec<u32> = Vec::new();
         for node in 0..self.movable() as u32 {
-            for &(cell, _) in self.star(node) {
-                for other in self.cells[cell as usize] {
+            if node.is_multiple_of(ASKED) {
+                monitor.proceed()?;
+            }
+            for (cell, _) in self.star(node) {
+                for other in self.cells[cell] {
                     if let Some(&colour) = colour_of.get(other as usize)
                         && colour != NONE
                     {
@@ -167,7 +201,7 @@ impl Problem {
             colour_of[node as usize] = colour as u32;
             colours[colour].push(node);
         }
-        colours
+        Ok(colours)
     }
 
     /// Copies the nodes back into the mesh; how many stand elsewhere than before.
@@ -183,27 +217,29 @@ impl Problem {
 }
 
 /// The cells around each of the first `count` nodes, by a counting sort.
-fn stars(cells: &[[u32; 8]], count: usize) -> (Vec<u32>, Vec<(u32, u8)>) {
+fn stars(cells: &[[u32; 8]], count: usize, monitor: &dyn Monitor) -> Result<(Vec<u32>, Vec<u32>), Cancelled> {
+    let of_cells = cells.as_flattened();
     let mut starts = vec![0u32; count + 1];
-    let corners = || {
-        cells
-            .iter()
-            .enumerate()
-            .flat_map(|(c, cell)| (0u8..).zip(cell).map(move |(k, &n)| (c, k, n as usize)))
-    };
-    for (_, _, node) in corners().filter(|&(_, _, n)| n < count) {
-        starts[node + 1] += 1;
+    for batch in batches(of_cells.len(), monitor) {
+        for &node in of_cells[batch?].iter().filter(|&&n| (n as usize) < count) {
+            starts[node as usize + 1] += 1;
+        }
     }
     for node in 0..count {
         starts[node + 1] += starts[node];
     }
     let mut next = starts.clone();
-    let mut around = vec![(0, 0); starts[count] as usize];
-    for (cell, k, node) in corners().filter(|&(_, _, n)| n < count) {
-        around[next[node] as usize] = (cell as u32, k);
-        next[node] += 1;
+    let mut around = vec![0; starts[count] as usize];
+    for batch in batches(of_cells.len(), monitor) {
+        for place in batch? {
+            let node = of_cells[place] as usize;
+            if node < count {
+                around[next[node] as usize] = u32::try_from(place).expect("more than 2^29 cells");
+                next[node] += 1;
+            }
+        }
     }
-    (starts, around)
+    Ok((starts, around))
 }
 
 fn cell_size(corners: &[Point; 8]) -> f64 {

@@ -45,7 +45,7 @@ pub(crate) fn smooth(
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let total = (COURSES.len() * options.smooth_sweeps) as f64;
-    let mut jacobians = problem.scaled_jacobians();
+    let mut jacobians = problem.scaled_jacobians(monitor)?;
     let mut done = 0;
     for (index, Course { weights, below }) in COURSES.into_iter().enumerate() {
         let target = options.target - below;
@@ -53,18 +53,18 @@ pub(crate) fn smooth(
         if low.is_empty() {
             continue;
         }
-        let allowed = problem.rings_around(&low, RINGS);
+        let allowed = problem.rings_within(&low, RINGS, monitor)?;
         let mut awake = allowed.clone();
         problem.guarded = jacobians.iter().map(|&jacobian| jacobian < GUARDED).collect();
         for round in 0..options.smooth_sweeps {
             monitor.checkpoint(SMOOTHING, (index * options.smooth_sweeps + round) as f64 / total)?;
             let worst = jacobians.iter().copied().fold(f64::INFINITY, f64::min);
             let rules = Rules { guide, weights, eps: 0.0, floor: Some(worst), asleep: ASLEEP };
-            let (changed, moved) = keep_positive(problem, &mut awake, |problem, awake| {
-                sweep(problem, rules, &allowed, awake, monitor)
-            })?;
-            let renewed =
-                parallel::collect(changed.len(), |k| scaled_jacobian(&problem.corners(changed[k] as usize)));
+            let round =
+                |problem: &mut Problem, awake: &mut [bool]| sweep(problem, rules, &allowed, awake, monitor);
+            let (changed, moved) = keep_positive(problem, &mut awake, monitor, round)?;
+            let jacobian = |k: usize| scaled_jacobian(&problem.corners(changed[k] as usize));
+            let renewed = parallel::try_collect(changed.len(), monitor, jacobian)?;
             changed.iter().zip(renewed).for_each(|(&cell, jacobian)| jacobians[cell as usize] = jacobian);
             done += 1;
             if moved.far == 0 {
@@ -81,13 +81,15 @@ pub(crate) fn smooth(
 pub(crate) fn keep_positive(
     problem: &mut Problem,
     awake: &mut Vec<bool>,
+    monitor: &dyn Monitor,
     mut round: impl FnMut(&mut Problem, &mut [bool]) -> Result<Moved, Cancelled>,
 ) -> Result<(Vec<u32>, Moved), Cancelled> {
     let before = (problem.points.clone(), awake.clone());
     loop {
         let moved = round(problem, awake)?;
-        let changed = problem.cells_around(&moved.nodes);
-        let is_positive = parallel::collect(changed.len(), |k| problem.is_positive(changed[k] as usize));
+        let changed = problem.cells_around_within(&moved.nodes, monitor)?;
+        let is_positive =
+            parallel::try_collect(changed.len(), monitor, |k| problem.is_positive(changed[k] as usize))?;
         let now = || changed.iter().map(|&cell| cell as usize).zip(is_positive.iter().copied());
         let lost: Vec<usize> =
             now().filter(|&(cell, is)| problem.positive[cell] && !is).map(|(cell, _)| cell).collect();
@@ -105,6 +107,7 @@ pub(crate) fn keep_positive(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Silent;
     use crate::geometry::Point;
     use crate::mesh::NodeId;
     use crate::mesh::numbering::hex::CORNERS;
@@ -117,7 +120,7 @@ mod tests {
         let mut problem = Problem::new(&positions, &hexes, |_| true);
         let mut awake = vec![true; 8];
         let mut starts = Vec::new();
-        let done = keep_positive(&mut problem, &mut awake, |problem, awake| {
+        let done = keep_positive(&mut problem, &mut awake, &Silent, |problem, awake| {
             starts.push((problem.points[6], awake[6], problem.guarded[0]));
             awake[6] = false;
             problem.points[6] = if problem.guarded[0] { Point::splat(0.9) } else { Point::splat(-1.0) };

@@ -69,8 +69,7 @@ impl Star {
     pub(crate) fn gather(&mut self, problem: &Problem, node: u32, eps: f64) {
         self.clear();
         let v = problem.points[node as usize];
-        for &(cell, k) in problem.star(node) {
-            let (cell, k) = (cell as usize, usize::from(k));
+        for (cell, k) in problem.star(node) {
             let points = problem.corners(cell);
             self.add(&problem.cells[cell], &points, k, eps * problem.volume[cell]);
             if problem.guarded[cell] && problem.positive[cell] {

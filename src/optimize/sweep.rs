@@ -85,8 +85,8 @@ pub(crate) struct Moved {
 
 /// Wakes the node and those that share a cell with it.
 pub(crate) fn wake(problem: &Problem, node: u32, allowed: &[bool], awake: &mut [bool]) {
-    for &(cell, _) in problem.star(node) {
-        for other in problem.cells[cell as usize] {
+    for (cell, _) in problem.star(node) {
+        for other in problem.cells[cell] {
             if allowed.get(other as usize) == Some(&true) {
                 awake[other as usize] = true;
             }

@@ -11,7 +11,8 @@ use super::problem::Problem;
 use super::sweep::{ASLEEP, Rules, sweep};
 use super::{OptimizeOptions, UNTANGLING};
 use crate::mesh::numbering::hex::NEIGHBOURS;
-use crate::{Cancelled, Monitor};
+use crate::monitor::batches;
+use crate::{Cancelled, Monitor, Silent};
 
 /// Rings of cells around those that are not positive whose nodes move, at first.
 const RINGS: usize = 2;
@@ -47,7 +48,7 @@ pub(crate) fn untangle(
         }
         rings += usize::from(in_vain > 0);
         fewest = fewest.min(tangled.len());
-        let allowed = problem.rings_around(&tangled, rings);
+        let allowed = problem.rings_within(&tangled, rings, monitor)?;
         let mut awake = allowed.clone();
         for _ in 0..ROUNDS {
             let least = least_determinant(problem, &tangled).min(0.0);
@@ -80,6 +81,16 @@ fn least_determinant(problem: &Problem, cells: &[usize]) -> f64 {
 impl Problem {
     /// The movable nodes of the cells, and of `rings` rings of cells around them.
     pub(crate) fn rings_around(&self, cells: &[usize], rings: usize) -> Vec<bool> {
+        self.rings_within(cells, rings, &Silent).expect("nobody stops it")
+    }
+
+    /// As [`Problem::rings_around`], unless the monitor stops it.
+    pub(crate) fn rings_within(
+        &self,
+        cells: &[usize],
+        rings: usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<bool>, Cancelled> {
         let mut reached = vec![false; self.movable()];
         let mut front: Vec<u32> = Vec::new();
         let enter = |cell: usize, reached: &mut Vec<bool>, front: &mut Vec<u32>| {
@@ -91,16 +102,21 @@ impl Problem {
                 }
             }
         };
-        for &cell in cells {
-            enter(cell, &mut reached, &mut front);
+        for batch in batches(cells.len(), monitor) {
+            for &cell in &cells[batch?] {
+                enter(cell, &mut reached, &mut front);
+            }
         }
         for _ in 0..rings {
-            for node in std::mem::take(&mut front) {
-                for &(cell, _) in self.star(node) {
-                    enter(cell as usize, &mut reached, &mut front);
+            let ring = std::mem::take(&mut front);
+            for batch in batches(ring.len(), monitor) {
+                for &node in &ring[batch?] {
+                    for (cell, _) in self.star(node) {
+                        enter(cell, &mut reached, &mut front);
+                    }
                 }
             }
         }
-        reached
+        Ok(reached)
     }
 }

@@ -69,7 +69,9 @@ pub(super) fn pull(
         }
         let (least, weights) = LEVELS[level];
         let rules = Rules { guide: &*holds, weights, eps: 0.0, floor: Some(course.floor), asleep: ASLEEP };
-        keep_positive(problem, awake, |problem, awake| sweep(problem, rules, &allowed, awake, monitor))?;
+        keep_positive(problem, awake, monitor, |problem, awake| {
+            sweep(problem, rules, &allowed, awake, monitor)
+        })?;
         if round >= FIRST_SNAP {
             let freedom = if round < CURVES_FIRST { 1 } else { 2 };
             snap(problem, holds, Bearable { least, freedom }, &allowed, awake, monitor)?;

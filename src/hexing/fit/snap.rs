@@ -29,7 +29,7 @@ pub(super) fn snap(
     awake: &mut Vec<bool>,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    let (_, snapped) = keep_positive(problem, awake, |problem, _| {
+    let (_, snapped) = keep_positive(problem, awake, monitor, |problem, _| {
         round(problem, holds, Bearable { least, freedom }, monitor)
     })?;
     for &node in &snapped.nodes {

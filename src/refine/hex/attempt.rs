@@ -20,6 +20,10 @@ pub(super) enum Attempt {
 /// Nodes that are further off the boundary than this share of the shortest edge have left it.
 const STRAYED: f64 = 1e-6;
 
+/// Where hexes stay inverted, all nodes so many rings of hexes around move too: a layer along a concave ridge needs room
+/// that the hexes beside it have.
+const WIDER: [usize; 2] = [2, 4];
+
 /// Makes a stage, untangles its transition and smooths it.
 pub(super) fn attempt(
     mesh: &StageMesh,
@@ -36,19 +40,36 @@ pub(super) fn attempt(
         return Ok(Attempt::Made(Box::new(next)));
     }
     let mut local = Local::around(&next, monitor)?;
-    let constraints = local.constraints(&next.mesh.labels, surface, monitor)?;
+    let mut tangled = relax(&next, &mut local, surface, monitor)?;
+    for rings in WIDER {
+        if tangled.is_empty() {
+            break;
+        }
+        local = Local::wider(&next, &tangled, rings, monitor)?;
+        tangled = relax(&next, &mut local, surface, monitor)?;
+    }
+    local.write_back(&mut next.mesh.positions);
+    if tangled.is_empty() {
+        return Ok(Attempt::Made(Box::new(next)));
+    }
+    Ok(Attempt::Tangled { coarse: coarse_at(&next, &tangled), hexes: tangled.len() })
+}
+
+/// Untangles and smooths some hexes of a stage. Those that stay inverted.
+fn relax(
+    stage: &StageResult,
+    local: &mut Local,
+    surface: &BoundarySurface,
+    monitor: &dyn Monitor,
+) -> Result<Vec<HexId>, HexRefineError> {
+    let constraints = local.constraints(&stage.mesh.labels, surface, monitor)?;
     let mut report = local.optimize(&constraints, monitor)?;
     if report.off_boundary > STRAYED * local.shortest_edge() {
         // A node has passed the end of its patch: it lies in the plane of that, but no more on the boundary.
-        local.put_back(&next.mesh.positions);
+        local.put_back(&stage.mesh.positions);
         report = local.optimize(&constraints.bounded(), monitor)?;
     }
-    local.write_back(&mut next.mesh.positions);
-    if report.inverted.is_empty() {
-        return Ok(Attempt::Made(Box::new(next)));
-    }
-    let tangled: Vec<HexId> = report.inverted.iter().map(|h| local.hex_ids[h.index()]).collect();
-    Ok(Attempt::Tangled { coarse: coarse_at(&next, &tangled), hexes: tangled.len() })
+    Ok(report.inverted.iter().map(|h| local.hex_ids[h.index()]).collect())
 }
 
 /// What it means that a stage was not made, other than for a conflict: closed trees leave no such place.

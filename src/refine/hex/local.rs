@@ -2,7 +2,7 @@
 //! and memory for smoothing follows from it, not from the mesh.
 
 use super::labels::{Label, label_of};
-use super::stage::StageResult;
+use super::stage::{StageMesh, StageResult};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::topology::{HexFaces, hex_of};
@@ -25,11 +25,33 @@ pub(super) struct Local {
 }
 
 impl Local {
-    /// The hexes at the nodes of a stage's layer.
+    /// The hexes at the nodes of a stage's layer, which may move.
     pub(super) fn around(stage: &StageResult, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let StageResult { mesh, layer_nodes, .. } = stage;
-        let mut moves = vec![false; mesh.positions.len()];
-        layer_nodes.iter().for_each(|n| moves[n.index()] = true);
+        let mut moves = vec![false; stage.mesh.positions.len()];
+        stage.layer_nodes.iter().for_each(|n| moves[n.index()] = true);
+        Self::of_movable(&stage.mesh, &moves, monitor)
+    }
+
+    /// The same, and all nodes up to `rings` of hexes away from those of `tangled` may move too.
+    pub(super) fn wider(
+        stage: &StageResult,
+        tangled: &[HexId],
+        rings: usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let hexes = &stage.mesh.hexes;
+        let mut near = vec![false; stage.mesh.positions.len()];
+        tangled.iter().flat_map(|h| hexes[h.index()]).for_each(|n| near[n.index()] = true);
+        for _ in 0..rings {
+            let ring =
+                parallel::try_filter(hexes.len(), monitor, |h| hexes[h].iter().any(|n| near[n.index()]))?;
+            ring.iter().flat_map(|&h| hexes[h as usize]).for_each(|n| near[n.index()] = true);
+        }
+        stage.layer_nodes.iter().for_each(|n| near[n.index()] = true);
+        Self::of_movable(&stage.mesh, &near, monitor)
+    }
+
+    fn of_movable(mesh: &StageMesh, moves: &[bool], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let is_near = |h: usize| mesh.hexes[h].iter().any(|n| moves[n.index()]);
         let hex_ids = parallel::try_filter(mesh.hexes.len(), monitor, is_near)?;
         let hex_ids: Vec<HexId> = hex_ids.into_iter().map(HexId).collect();

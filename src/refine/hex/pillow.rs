@@ -88,6 +88,7 @@ pub(super) fn pillow(
     let mut all = Vec::with_capacity(positions.len() + copies.points.len());
     all.extend_from_slice(positions);
     all.extend_from_slice(&copies.points);
+    interface.nodes.iter().zip(&copies.kept).for_each(|(n, &kept)| all[n.index()] = kept);
     Ok(Pillow { positions: all, hexes, layer, pinched_edges: pinches.len() })
 }
 
@@ -113,6 +114,8 @@ struct Copies {
     first: Vec<u32>,
     /// Where the copies are.
     points: Vec<Point>,
+    /// Where the nodes of the interface are themselves.
+    kept: Vec<Point>,
     /// The first of all copies.
     first_node: NodeId,
 }
@@ -123,6 +126,7 @@ struct Block {
     of_use: Vec<u32>,
     counts: Vec<u32>,
     points: Vec<Point>,
+    kept: Vec<Point>,
     more: Vec<u32>,
 }
 
@@ -150,6 +154,7 @@ impl Copies {
             of_use: blocks.iter().flat_map(|block| block.of_use.iter().copied()).collect(),
             first: offsets(counts.into_iter()),
             points: blocks.iter().flat_map(|block| block.points.iter().copied()).collect(),
+            kept: blocks.iter().flat_map(|block| block.kept.iter().copied()).collect(),
         })
     }
 
@@ -167,12 +172,17 @@ impl Copies {
             regions.load(interface, &star, pinches, place);
             shifts.load(positions, interface, &star, &regions);
             let staying_side = ridges.staying_side(place);
-            shifts.choose_keepers(&regions, staying_side);
+            let side_beside = ridges.side_beside(interface, &star);
+            shifts.choose_keepers(&regions, staying_side, side_beside);
+            if staying_side.is_none() {
+                shifts.lean(&regions, side_beside);
+            }
             let is_whole = shifts.keeps_ridges(&regions, staying_side);
             if !regions.are_trees() || shifts.is_stuck() || !is_whole {
                 add_coarse(&star, &mut block.more, |_| true);
             }
             block.of_use.extend(regions.of_hex.iter().map(|&region| shifts.copy(region as usize)));
+            block.kept.push(shifts.kept());
             let before = block.points.len();
             block.points.extend(shifts.points());
             block.counts.push((block.points.len() - before) as u32);

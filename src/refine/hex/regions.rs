@@ -156,7 +156,7 @@ impl Regions {
 }
 
 /// The other ends of the interface edges at a star's node, each once or more.
-fn interface_ends(star: &Star) -> impl Iterator<Item = NodeId> + '_ {
+pub(super) fn interface_ends(star: &Star) -> impl Iterator<Item = NodeId> + '_ {
     star.faces.iter().filter(|face| star.is_interface(face)).flat_map(|face| [face.rest[0], face.rest[2]])
 }
 

@@ -8,7 +8,7 @@
 use super::blocks::in_blocks;
 use super::interface::{Interface, Star};
 use super::pinch::Pinches;
-use super::regions::Regions;
+use super::regions::{Regions, interface_ends};
 use super::shift::Shifts;
 use crate::geometry::Point;
 use crate::mesh::topology::Sets;
@@ -17,7 +17,12 @@ use crate::{Cancelled, Monitor};
 /// Where the interface runs along ridges of the boundary, and which side stays on them.
 pub(super) struct Ridges {
     staying: Vec<Option<bool>>,
+    /// Does the other side leave the run of ridges along the interface's own plane somewhere?
+    is_flat: Vec<bool>,
 }
+
+/// The sine below which a side leaves along the interface's plane.
+const FLAT: f64 = 0.5;
 
 /// What one node says of it.
 struct AtNode {
@@ -26,16 +31,26 @@ struct AtNode {
     others: Vec<usize>,
     coarse_must_stay: bool,
     refined_must_stay: bool,
-    /// How much more steeply the refined side leaves the interface than the coarse one.
-    refined_is_steeper: f64,
+    /// How steeply the coarse and the refined side leave the interface.
+    steepness: [f64; 2],
 }
 
 /// What the nodes of a run of ridges say together.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Verdict {
     coarse_must_stay: bool,
     refined_must_stay: bool,
+    /// How much more steeply the refined side leaves the interface than the coarse one.
     refined_is_steeper: f64,
+    /// How steeply the coarse and the refined side leave the interface where each does least.
+    steepness: [f64; 2],
+}
+
+impl Default for Verdict {
+    fn default() -> Self {
+        let steepness = [f64::INFINITY; 2];
+        Self { coarse_must_stay: false, refined_must_stay: false, refined_is_steeper: 0.0, steepness }
+    }
 }
 
 impl Verdict {
@@ -73,7 +88,7 @@ impl Ridges {
                 others,
                 coarse_must_stay: shifts.must_stay(regions, false),
                 refined_must_stay: shifts.must_stay(regions, true),
-                refined_is_steeper: steepness(true) - steepness(false),
+                steepness: [steepness(false), steepness(true)],
             }));
         };
         let found = in_blocks(count, monitor, buffers, at)?;
@@ -88,18 +103,32 @@ impl Ridges {
             let verdict = &mut verdicts[runs.root(node.place as u32).0 as usize];
             verdict.coarse_must_stay |= node.coarse_must_stay;
             verdict.refined_must_stay |= node.refined_must_stay;
-            verdict.refined_is_steeper += node.refined_is_steeper;
+            verdict.refined_is_steeper += node.steepness[1] - node.steepness[0];
+            verdict.steepness = [0, 1].map(|side| verdict.steepness[side].min(node.steepness[side]));
         }
-        let mut staying = vec![None; count];
+        let (mut staying, mut is_flat) = (vec![None; count], vec![false; count]);
         for node in &found {
             let verdict = verdicts[runs.root(node.place as u32).0 as usize];
-            staying[node.place] = Some(verdict.refined_stays());
+            let refined = verdict.refined_stays();
+            staying[node.place] = Some(refined);
+            is_flat[node.place] = verdict.steepness[usize::from(!refined)] < FLAT;
         }
-        Ok(Self { staying })
+        Ok(Self { staying, is_flat })
     }
 
     /// The side that stays at node `place` of the interface, if it is on such a ridge: true for the refined side.
     pub(super) fn staying_side(&self, place: usize) -> Option<bool> {
         self.staying[place]
+    }
+
+    /// The side that stays on ridges at the other ends of the interface's edges at a star's node, where the other side
+    /// leaves along the interface's plane. If it stays at this node as well, the layer between them does not fold.
+    pub(super) fn side_beside(&self, interface: &Interface, star: &Star) -> Option<bool> {
+        let mut sides = interface_ends(star)
+            .filter_map(|end| interface.place(end))
+            .filter(|&place| self.is_flat[place])
+            .filter_map(|place| self.staying[place]);
+        let first = sides.next()?;
+        sides.all(|side| side == first).then_some(first)
     }
 }

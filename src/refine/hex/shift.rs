@@ -10,8 +10,9 @@
 //! 2. of the side that stays along a ridge (`ridges`),
 //! 3. that owns a boundary face,
 //! 4. that cannot move,
-//! 5. with the most neighbours,
-//! 6. of refined hexes.
+//! 5. of the side that stays along a ridge beside the node, if the other leaves that along the interface's plane,
+//! 6. with the most neighbours,
+//! 7. of refined hexes.
 
 use super::interface::{Interface, Star, StarFace};
 use super::labels::label_of;
@@ -27,6 +28,9 @@ pub(super) const RIDGE_DEGREES: f64 = 30.0;
 /// Its cosine.
 const RIDGE: f64 = 0.866_025_403_784_438_6;
 
+/// How far the layer leans over beside a ridge, in thicknesses.
+const LEAN: f64 = 0.7;
+
 /// The least sine, as a cosine to the normals, of a ridge's direction to the faces beside it.
 const ALONG: f64 = 0.5;
 
@@ -36,6 +40,8 @@ pub(super) struct Shifts {
     at: Point,
     /// How far copies move.
     distance: f64,
+    /// How far the region that keeps the node moves itself.
+    lean: Point,
     bounds: Vec<Bound>,
     regions: Vec<Shift>,
     /// Edges of the interface along ridges, by their other ends.
@@ -86,6 +92,7 @@ impl Shifts {
     ) {
         let at = |n: NodeId| positions[n.index()];
         self.at = at(star.node);
+        self.lean = Point::ZERO;
         self.regions.clear();
         self.regions.resize(regions.all.len(), Shift::default());
         self.find_bounds(positions, interface, star, regions);
@@ -217,7 +224,12 @@ impl Shifts {
     }
 
     /// Chooses the region that keeps the node, one for each part of the star.
-    pub(super) fn choose_keepers(&mut self, regions: &Regions, staying_side: Option<bool>) {
+    pub(super) fn choose_keepers(
+        &mut self,
+        regions: &Regions,
+        staying_side: Option<bool>,
+        side_beside: Option<bool>,
+    ) {
         for part in 0..regions.all.len() as u32 {
             let of_part = (0..regions.all.len()).filter(|&k| regions.all[k].part == part);
             let keeper = of_part.max_by_key(|&k| {
@@ -227,6 +239,7 @@ impl Shifts {
                     staying_side == Some(region.is_refined),
                     shift.is_on_boundary,
                     shift.direction.is_none(),
+                    side_beside == Some(region.is_refined),
                     region.degree,
                     region.is_refined,
                     std::cmp::Reverse(k),
@@ -256,7 +269,31 @@ impl Shifts {
     /// Where the copies are, in order.
     pub(super) fn points(&self) -> impl Iterator<Item = Point> + '_ {
         let moved = self.regions.iter().filter(|shift| !shift.keeps);
-        moved.map(|shift| self.at + shift.direction.unwrap_or(Point::ZERO) * self.distance)
+        let kept = self.kept();
+        moved.map(move |shift| kept + shift.direction.unwrap_or(Point::ZERO) * self.distance)
+    }
+
+    /// Where the node itself is from now on.
+    pub(super) fn kept(&self) -> Point {
+        self.at + self.lean
+    }
+
+    /// Leans the layer over to the side that leaves ridges beside the node along the interface's plane, so that it does not
+    /// fold there: the angle between the two at the ridge is half a turn and more.
+    pub(super) fn lean(&mut self, regions: &Regions, side_beside: Option<bool>) {
+        let Some(side) = side_beside else { return };
+        let [a, b] = [0, 1].map(|k| (regions.all.get(k), self.regions.get(k)));
+        let (keeper, leaver) = if a.1.is_some_and(|shift| shift.keeps) { (a, b) } else { (b, a) };
+        if let ((Some(region), Some(keeper)), (_, Some(leaver))) = (keeper, leaver)
+            && regions.all.len() == 2
+            && region.is_refined == side
+            && keeper.is_on_boundary == leaver.is_on_boundary
+            && !keeper.is_on_ridge
+            && !leaver.is_on_ridge
+            && let Some(direction) = leaver.direction
+        {
+            self.lean = direction * (LEAN * self.distance);
+        }
     }
 }
 

@@ -106,7 +106,7 @@ impl Trees {
                     monitor.proceed()?;
                     match number.checked_sub(1) {
                         None => forest.split_base(batch),
-                        Some(depth) => forest.split(depth, batch),
+                        Some(depth) => forest.split_within(depth, batch, monitor)?,
                     }
                 }
             }
@@ -136,4 +136,4 @@ impl Trees {
 }
 
 /// Elements that are split before the monitor is asked again.
-const BATCH: usize = 1 << 16;
+const BATCH: usize = 1 << 14;
