@@ -13,7 +13,7 @@
 use super::attempt::{Meshed, attempt, off_euler};
 use super::background::{Background, BackgroundError, retry};
 use super::ground::{Plan, Site};
-use super::merit::{Bar, GOOD, is_better, is_far, worst};
+use super::merit::{Bar, GOOD, distance, is_better, is_far, worst};
 use super::options::{HexingError, HexingOptions};
 use super::report::{AttemptReport, BodyReport};
 use crate::Monitor;
@@ -24,6 +24,9 @@ const SHIFTS: [[f64; 3]; 2] = [[0.5; 3], [0.25, 0.5, 0.75]];
 
 /// A least scaled Jacobian with which there is no grid tried instead of a sweep: it captures less.
 const POOR: f64 = 0.2;
+
+/// A sweep that is farther from the solid than so many edges does not show some part of it that a grid may show.
+const ASTRAY: f64 = 0.5;
 
 /// The background of another try has at most so many times the hexes of the first.
 const GROWTH: u64 = 4;
@@ -71,13 +74,13 @@ pub(super) fn mesh_body(
             break;
         }
     }
-    let (shifts, least): (&[[f64; 3]], f64) = match site.choice.kind {
-        Background::Grid => (&SHIFTS, GOOD),
-        Background::Swept if site.may_be_grid() => (&[[0.0; 3]], POOR),
-        _ => (&[], 0.0),
+    let (shifts, least, farthest): (&[[f64; 3]], f64, f64) = match site.choice.kind {
+        Background::Grid => (&SHIFTS, GOOD, f64::INFINITY),
+        Background::Swept if site.may_be_grid() => (&[[0.0; 3]], POOR, ASTRAY * options.edge_length),
+        _ => (&[], 0.0, f64::INFINITY),
     };
     for &shift in shifts {
-        if !search.is_good(least) {
+        if !search.is_good(least, farthest) {
             search.another(Plan { shift, ..Plan::of(Background::Grid) })?;
         }
     }
@@ -151,10 +154,11 @@ impl Search<'_> {
         self.best.as_ref().map(|best| best.number)
     }
 
-    /// Is there nothing that another try could mend, where the worst cell may be so bad?
-    fn is_good(&self, least: f64) -> bool {
+    /// Is there nothing that another try could mend, where the worst cell may be so bad, and the mesh so far off?
+    fn is_good(&self, least: f64, farthest: f64) -> bool {
         self.best_report().is_some_and(|best| {
-            off_euler(&best.core) == 0 && !is_far(best, self.site.options) && worst(best) >= least
+            let is_near = !is_far(best, self.site.options) && distance(best) <= farthest;
+            off_euler(&best.core) == 0 && is_near && worst(best) >= least
         })
     }
 

@@ -64,7 +64,8 @@ pub(super) fn worst(report: &AttemptReport) -> f64 {
     report.mesh.as_ref().map_or(f64::NEG_INFINITY, |mesh| mesh.worst)
 }
 
-fn distance(report: &AttemptReport) -> f64 {
+/// How far mesh and solid are from each other; infinite without a mesh.
+pub(super) fn distance(report: &AttemptReport) -> f64 {
     report.mesh.as_ref().map_or(f64::INFINITY, |mesh| mesh.distance.hausdorff())
 }
 
