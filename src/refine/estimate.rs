@@ -56,8 +56,9 @@ pub fn estimate_quads(
     options: &QuadOptions,
     monitor: &dyn Monitor,
 ) -> Result<Estimate, RefineError> {
-    let size = size(input, options, monitor)?;
-    Ok(Estimate { idle_regions: idle_regions(input, options, monitor)?, ..size })
+    let demand = Demand::new(input, options, monitor)?;
+    let size = size(input, &demand, options, monitor)?;
+    Ok(Estimate { idle_regions: demand.idle_regions(input, monitor)?, ..size })
 }
 
 /// The regions that overlap no part of the input, by their places among the options': they refine nothing.
@@ -69,6 +70,7 @@ pub fn idle_regions(
     options: &QuadOptions,
     monitor: &dyn Monitor,
 ) -> Result<Vec<u32>, RefineError> {
+    // What the options are made ready for is not needed then.
     if options.regions.is_empty() {
         return Ok(Vec::new());
     }
@@ -76,7 +78,12 @@ pub fn idle_regions(
 }
 
 /// As [`estimate_quads`], of the figures alone.
-fn size(input: &PolygonMesh, options: &QuadOptions, monitor: &dyn Monitor) -> Result<Estimate, RefineError> {
+fn size(
+    input: &PolygonMesh,
+    demand: &Demand,
+    options: &QuadOptions,
+    monitor: &dyn Monitor,
+) -> Result<Estimate, RefineError> {
     let small = QuadOptions { max_quads: COUNTED, ..options.clone() };
     match refine_within(input, &small, monitor) {
         Ok(refined) => {
@@ -86,10 +93,7 @@ fn size(input: &PolygonMesh, options: &QuadOptions, monitor: &dyn Monitor) -> Re
             let bytes = quads * Estimate::BYTES_PER_QUAD;
             Ok(Estimate { quads, nodes, bytes, levels, exact: true, idle_regions: Vec::new() })
         }
-        Err(RefineError::TooManyQuads { .. }) => {
-            let demand = Demand::new(input, options, monitor)?;
-            Ok(follow_sample(input, &demand, options, monitor)?)
-        }
+        Err(RefineError::TooManyQuads { .. }) => Ok(follow_sample(input, demand, options, monitor)?),
         Err(error) => Err(error),
     }
 }

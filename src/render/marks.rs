@@ -1,7 +1,10 @@
 //! Marks of constant size on the screen: lines, discs.
 
 use bytemuck::Pod;
-use wgpu::{BindGroupLayout, BlendState, PrimitiveTopology, RenderPass, RenderPipeline, VertexBufferLayout};
+use wgpu::{
+    BindGroupLayout, BlendState, PrimitiveTopology, RenderPass, RenderPipeline, VertexAttribute,
+    VertexBufferLayout, VertexStepMode,
+};
 
 use super::{
     gpu::Gpu,
@@ -18,29 +21,23 @@ pub trait Mark: Pod {
     /// WGSL with entry points `vertex` and `fragment`, and an override `opacity`.
     const SHADER: &str;
     /// The fields of an instance.
-    const LAYOUT: VertexBufferLayout<'static>;
+    const FIELDS: &[VertexAttribute];
 }
 
 /// Lines of constant width.
 impl Mark for Segment {
     const LABEL: &str = "lines";
     const SHADER: &str = shader!("lines.wgsl");
-    const LAYOUT: VertexBufferLayout<'static> = VertexBufferLayout {
-        array_stride: size_of::<Segment>() as u64,
-        step_mode: wgpu::VertexStepMode::Instance,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32, 3 => Unorm8x4],
-    };
+    const FIELDS: &[VertexAttribute] =
+        &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32, 3 => Unorm8x4];
 }
 
 /// Handles, the pivot, and corners of a solid.
 impl Mark for Disc {
     const LABEL: &str = "discs";
     const SHADER: &str = shader!("discs.wgsl");
-    const LAYOUT: VertexBufferLayout<'static> = VertexBufferLayout {
-        array_stride: size_of::<Disc>() as u64,
-        step_mode: wgpu::VertexStepMode::Instance,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x2, 2 => Unorm8x4, 3 => Unorm8x4],
-    };
+    const FIELDS: &[VertexAttribute] =
+        &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x2, 2 => Unorm8x4, 3 => Unorm8x4];
 }
 
 /// Draws marks of one kind.
@@ -52,12 +49,17 @@ pub struct Marks<M> {
 impl<M: Mark> Marks<M> {
     /// The drawable on a device.
     pub fn new(gpu: &Gpu, frame: &BindGroupLayout, place: Place) -> Self {
+        let instance = VertexBufferLayout {
+            array_stride: size_of::<M>() as u64,
+            step_mode: VertexStepMode::Instance,
+            attributes: M::FIELDS,
+        };
         let pipeline = |pass: Pass| {
             let recipe = Recipe {
                 label: M::LABEL,
                 shader: M::SHADER,
                 groups: &[frame],
-                buffers: &[M::LAYOUT],
+                buffers: std::slice::from_ref(&instance),
                 constants: &pass.constants(),
                 topology: PrimitiveTopology::TriangleStrip,
                 cull: None,
