@@ -11,11 +11,12 @@ use super::errors::Failure;
 use super::file;
 use super::memory::Cost;
 use super::pool::on_pool;
+use crate::Silent;
 use crate::geometry::{Aabb, Point};
 use crate::io::{AnyMesh, Document};
-use crate::mesh::check::{check_hexes, summary};
+use crate::mesh::check::{check_hexes_on, summary};
 use crate::mesh::quality::{HexQualityReport, hex_quality};
-use crate::mesh::topology::{HexEdges, HexFaces, HexReport, hex_report};
+use crate::mesh::topology::{HexReport, HexTopology, hex_report};
 use crate::mesh::{GridError, GridOptions, MeshHash, NodeId, TagSet, hex_grid, mesh_hash, orient_hexes};
 
 type Mesh = crate::mesh::HexMesh;
@@ -157,18 +158,18 @@ impl HexMesh {
 
 impl Info {
     fn of(HexMesh { mesh, turned, dropped_faces }: &HexMesh) -> Self {
-        let count = mesh.positions.len();
-        let edges = HexEdges::of(count, &mesh.hexes);
+        let topology = HexTopology::of(mesh);
+        let defects = check_hexes_on(mesh, &topology, &Silent).expect("nobody stops it");
         Self {
-            report: hex_report(mesh, &HexFaces::of(count, &mesh.hexes), &edges),
-            extent: Extent::of(&mesh.positions, &edges.ends),
+            report: hex_report(&topology),
+            extent: Extent::of(&mesh.positions, &topology.edges.ends),
             hash: mesh_hash(&mesh.positions, &mesh.hexes),
             turned: *turned,
             grouped_faces: mesh.groups.sides().len(),
             dropped_faces: *dropped_faces,
             groups: mesh.groups.tags().sets.iter().map(Group::from).collect(),
             quality: hex_quality(mesh).report(),
-            defects: summary(&check_hexes(mesh)).iter().map(ToString::to_string).collect(),
+            defects: summary(&defects).iter().map(ToString::to_string).collect(),
         }
     }
 }

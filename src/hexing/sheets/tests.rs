@@ -5,7 +5,7 @@ use crate::geometry::Point;
 use crate::hexing::correspondence::Anchor;
 use crate::mesh::PolygonMesh;
 use crate::mesh::check::{Defect, check_hexes};
-use crate::mesh::topology::{HexEdges, HexFaces, hex_boundary, hex_report};
+use crate::mesh::topology::{HexTopology, hex_boundary, hex_report};
 use crate::solid::{CornerId, SolidOptions, SurfaceId};
 
 /// Euler characteristic of a mesh that has to be conforming, a manifold and without loose nodes.
@@ -13,8 +13,7 @@ fn euler(mesh: &HexMesh) -> i64 {
     let allowed = |defect: &Defect| matches!(defect, Defect::InvertedHex { .. });
     let defects: Vec<Defect> = check_hexes(mesh).into_iter().filter(|d| !allowed(d)).collect();
     assert_eq!(defects, []);
-    let n = mesh.positions.len();
-    let report = hex_report(mesh, &HexFaces::of(n, &mesh.hexes), &HexEdges::of(n, &mesh.hexes));
+    let report = hex_report(&HexTopology::of(mesh));
     assert!(report.is_manifold(), "{report:?}");
     report.euler
 }

@@ -14,9 +14,7 @@
 
 use super::{Defect, hanging, not_finite, repeated_node};
 use crate::mesh::orientation::inverted_corners;
-use crate::mesh::topology::{
-    Bins, HexEdges, HexFaces, Links, NodeSets, Side, boundary_faces_at, faces_at_use, hex_of, side_nodes,
-};
+use crate::mesh::topology::{Bins, HexFaces, HexTopology, NodeSets, Side, hex_of, side_nodes};
 use crate::mesh::{EdgeId, FaceId, HexId, HexMesh, NodeId};
 use crate::monitor::batches;
 use crate::{Cancelled, Monitor, Silent, parallel};
@@ -33,30 +31,34 @@ pub fn check_hexes(mesh: &HexMesh) -> Vec<Defect> {
 /// If the monitor stops it.
 pub fn check_hexes_within(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
     monitor.proceed()?;
-    let mut defects = per_hex(mesh, |h| ids(mesh, h), monitor)?;
+    let defects = per_hex(mesh, |h| ids(mesh, h), monitor)?;
     if !defects.is_empty() {
         return Ok(defects);
     }
-    defects.extend(not_finite(&mesh.positions));
+    check_hexes_on(mesh, &HexTopology::within(mesh, monitor)?, monitor)
+}
+
+/// As [`check_hexes_within`], for callers that have the mesh's topology; its node ids are in range.
+///
+/// # Errors
+/// If the monitor stops it.
+pub fn check_hexes_on(
+    mesh: &HexMesh,
+    topology: &HexTopology,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Defect>, Cancelled> {
+    monitor.proceed()?;
+    let HexTopology { faces, links, .. } = topology;
+    let mut defects = not_finite(&mesh.positions);
     let all_finite = defects.is_empty();
     defects.extend(per_hex(mesh, |h| shape(mesh, h), monitor)?);
     defects.extend(same_hexes(mesh, monitor)?);
-    monitor.proceed()?;
-    let (node_count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
-    let (faces, edges) = parallel::join(
-        || HexFaces::within(node_count, hexes, monitor),
-        || HexEdges::within(node_count, hexes, monitor),
-    );
-    let (faces, edges) = (faces?, edges?);
-    monitor.proceed()?;
     defects.extend(parallel::try_gather(faces.nodes.len(), monitor, |f, found| {
-        found.extend(face_defect(mesh, &faces, FaceId::new(f)));
+        found.extend(face_defect(mesh, faces, FaceId::new(f)));
     })?);
-    defects.extend(mesh.groups.sides().iter().filter_map(|&side| group_defect(&faces, side)));
-    defects.extend(edge_defects(&faces, &edges, monitor)?);
-    monitor.proceed()?;
-    let links = Links::within(mesh, &faces, &edges, monitor)?;
-    let unused = (0..node_count).filter(|&n| !links.is_used(n));
+    defects.extend(mesh.groups.sides().iter().filter_map(|&side| group_defect(faces, side)));
+    defects.extend(edge_defects(topology, monitor)?);
+    let unused = (0..links.len()).filter(|&n| !links.is_used(n));
     defects.extend(unused.map(|n| Defect::UnusedNode { node: NodeId::new(n) }));
     let odd = |(node, euler): (NodeId, i32)| {
         let boundary = links.on_boundary[node.index()];
@@ -166,36 +168,67 @@ fn is_turned(a: [NodeId; 4], b: [NodeId; 4]) -> bool {
 }
 
 /// Step 6.
-fn edge_defects(faces: &HexFaces, edges: &HexEdges, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
-    let uses = edges.uses();
+fn edge_defects(topology: &HexTopology, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
+    let HexTopology { faces, edges, .. } = topology;
+    let uses = topology.uses(monitor)?;
     let mut shared: Vec<[FaceId; 2]> = parallel::try_gather(edges.ends.len(), monitor, |e, found| {
-        found.extend(sharing_three_nodes(faces, edges, &uses, EdgeId::new(e)));
+        let e = EdgeId::new(e);
+        if !beside_each_other(topology, &uses, e) {
+            found.extend(sharing_three_nodes(topology, &uses, e));
+        }
     })?;
     // Faces with three common nodes may have two common edges.
     parallel::sort(&mut shared);
     shared.dedup();
-    let told = shared.into_iter().map(|pair| {
-        let hexes = pair.map(|f| hex_of(faces.sides(f)[0]));
-        Defect::ThreeSharedNodes { faces: pair.map(|f| faces.nodes[f.index()]), hexes }
+    let hex = |f: FaceId| hex_of(faces.sides(f)[0]);
+    let told = shared.into_iter().map(|pair| Defect::ThreeSharedNodes {
+        faces: pair.map(|f| faces.nodes[f.index()]),
+        hexes: pair.map(hex),
     });
-    let rims = parallel::try_gather(edges.ends.len(), monitor, |e, found| {
-        let at = boundary_faces_at(faces, &uses, EdgeId::new(e));
-        let hexes = || at.iter().map(|&f| hex_of(faces.sides(f)[0])).collect();
-        let rim = || Defect::NonManifoldRim { edge: edges.ends[e], hexes: hexes() };
-        found.extend((!matches!(at.len(), 0 | 2)).then(rim));
-    })?;
+    let odd: Vec<EdgeId> = topology.odd_rims().collect();
+    let boundary = topology.boundary_faces_at(&odd);
+    let rims = boundary.chunk_by(|a, b| a.0 == b.0).map(|at| Defect::NonManifoldRim {
+        edge: edges.ends[at[0].0.index()],
+        hexes: at.iter().map(|&(_, f)| hex(f)).collect(),
+    });
     Ok(told.chain(rims).collect())
+}
+
+/// Most faces at an edge that are looked at without lists.
+const FEW: usize = 8;
+
+/// Are there few faces at an edge, which share no node but its ends? That is so at nearly every edge, and soon seen.
+fn beside_each_other(topology: &HexTopology, uses: &Bins, e: EdgeId) -> bool {
+    let ends = topology.edges.ends[e.index()];
+    let (mut faces, mut count) = ([FaceId(u32::MAX); FEW], 0);
+    let mut beside = [NodeId(u32::MAX); 2 * FEW];
+    for f in uses.at(e.index()).iter().flat_map(|&u| topology.faces_at_use(u)) {
+        if faces[..count].contains(&f) {
+            continue;
+        }
+        if count == FEW {
+            return false;
+        }
+        let others = topology.faces.nodes[f.index()].into_iter().filter(|n| !ends.contains(n));
+        for (k, node) in others.enumerate() {
+            if k == 2 || beside[..2 * count].contains(&node) {
+                return false;
+            }
+            beside[2 * count + k] = node;
+        }
+        faces[count] = f;
+        count += 1;
+    }
+    true
 }
 
 /// The pairs of faces at an edge that have another node in common: two triples of nodes in a quad share an edge of
 /// each, so all pairs with three common nodes are found at edges.
-fn sharing_three_nodes(faces: &HexFaces, edges: &HexEdges, uses: &Bins, e: EdgeId) -> Vec<[FaceId; 2]> {
-    let ends = edges.ends[e.index()];
-    let mut beside: Vec<(NodeId, FaceId)> = uses
-        .at(e.index())
-        .iter()
-        .flat_map(|&u| faces_at_use(faces, u))
-        .flat_map(|f| faces.nodes[f.index()].map(|n| (n, f)))
+fn sharing_three_nodes(topology: &HexTopology, uses: &Bins, e: EdgeId) -> Vec<[FaceId; 2]> {
+    let ends = topology.edges.ends[e.index()];
+    let at_edge = uses.at(e.index()).iter().flat_map(|&u| topology.faces_at_use(u));
+    let mut beside: Vec<(NodeId, FaceId)> = at_edge
+        .flat_map(|f| topology.faces.nodes[f.index()].map(|n| (n, f)))
         .filter(|(n, _)| !ends.contains(n))
         .collect();
     beside.sort_unstable();

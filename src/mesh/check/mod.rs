@@ -21,7 +21,7 @@ mod same_nodes;
 pub(crate) use defect::listed;
 pub use defect::{Defect, DefectCount, Severity, summary};
 pub use hanging::hanging_nodes;
-pub use hexes::{check_hexes, check_hexes_within};
+pub use hexes::{check_hexes, check_hexes_on, check_hexes_within};
 
 use super::topology::{EdgeUses, Edges, disagrees, edge_ids, non_manifold_nodes, used_nodes};
 use super::{EdgeId, FaceId, Faces, NodeId, PolygonMesh, QuadMesh};

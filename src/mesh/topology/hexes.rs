@@ -95,12 +95,6 @@ impl HexEdges {
         let (ends, of_hex) = numbered(node_count, hexes, EDGES, EdgeId, monitor)?;
         Ok(Self { ends, of_hex })
     }
-
-    /// The hexes at each edge, as `12 * h + k` for edge `k` of hex `h`.
-    pub(crate) fn uses(&self) -> Bins {
-        let edges = self.of_hex.as_flattened();
-        Bins::of(self.ends.len(), edges.len(), |k| edges[k].index())
-    }
 }
 
 /// The hex that has a side.

@@ -2,7 +2,7 @@
 
 use hexmill::hexing::{HexedSolid, HexingOptions, hex_solid};
 use hexmill::mesh::quality::{Certainty, is_positive, scaled_jacobian};
-use hexmill::mesh::topology::{HexEdges, HexFaces, hex_report};
+use hexmill::mesh::topology::{HexTopology, hex_report};
 use hexmill::mesh::{PolygonMesh, check_hexes};
 use hexmill::{Silent, geometry::Point};
 
@@ -21,10 +21,9 @@ pub(super) fn assert_sound(hexed: &HexedSolid, name: &str) {
     let mesh = &hexed.mesh;
     assert!(!mesh.hexes.is_empty(), "{name}");
     assert_eq!(check_hexes(mesh), [], "{name}");
-    let (count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
-    let report = hex_report(mesh, &HexFaces::of(count, hexes), &HexEdges::of(count, hexes));
+    let report = hex_report(&HexTopology::of(mesh));
     assert!(report.is_manifold(), "{name}");
-    for hex in hexes {
+    for hex in &mesh.hexes {
         let corners: [Point; 8] = hex.map(|n| mesh.positions[n.index()]);
         assert!(scaled_jacobian(&corners) > 0.0, "{name}");
         assert!(is_positive(&corners) == Certainty::Positive, "{name}");

@@ -1,13 +1,14 @@
 //! What is known of a mesh: a part of every command's record, and its lines for people.
 
+use hexmill::Silent;
 use hexmill::geometry::Aabb;
 use hexmill::io::{AnyMesh, Document};
-use hexmill::mesh::check::{DefectCount, summary};
+use hexmill::mesh::check::{DefectCount, check_hexes_on, summary};
 use hexmill::mesh::quality::{Distribution, HexQualityReport, QualityReport, hex_quality, quad_quality};
-use hexmill::mesh::topology::{HexEdges, HexFaces, HexReport, SurfaceReport, hex_report, surface_report};
+use hexmill::mesh::topology::{HexReport, HexTopology, SurfaceReport, hex_report, surface_report};
 use hexmill::mesh::{
-    Defect, Edges, Faces, HexMesh, MeshHash, NodeId, PolygonMesh, QuadMesh, Volumes, check_hexes,
-    check_polygons, check_quads, mesh_hash, polygon_hash,
+    Defect, Edges, Faces, HexMesh, MeshHash, NodeId, PolygonMesh, QuadMesh, Volumes, check_polygons,
+    check_quads, mesh_hash, polygon_hash,
 };
 use serde::Serialize;
 
@@ -170,7 +171,11 @@ impl MeshReport {
         let (topology, defects) = match mesh {
             AnyMesh::Polygons(mesh) => (surface_topology(mesh), check_polygons(mesh)),
             AnyMesh::Quads(mesh) => (surface_topology(mesh), check_quads(mesh)),
-            AnyMesh::Hexes(mesh) => (solid_topology(mesh), check_hexes(mesh)),
+            AnyMesh::Hexes(mesh) => {
+                let topology = HexTopology::of(mesh);
+                let defects = check_hexes_on(mesh, &topology, &Silent).expect("nobody stops it");
+                (Topology::Solid(hex_report(&topology)), defects)
+            }
         };
         self.topology = Some(topology);
         self.defects = Some(Defects::new(defects));
@@ -179,11 +184,6 @@ impl MeshReport {
 
 fn surface_topology<M: Faces>(mesh: &M) -> Topology {
     Topology::Surface(surface_report(mesh, &Edges::of(mesh)))
-}
-
-fn solid_topology(mesh: &HexMesh) -> Topology {
-    let (count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
-    Topology::Solid(hex_report(mesh, &HexFaces::of(count, hexes), &HexEdges::of(count, hexes)))
 }
 
 /// The quads of a polygon mesh.

@@ -33,8 +33,7 @@ fn kept(mesh: &HexMesh, keep: &[usize]) -> HexMesh {
 }
 
 fn report(mesh: &HexMesh) -> crate::mesh::topology::HexReport {
-    let count = mesh.positions.len();
-    hex_report(mesh, &HexFaces::of(count, &mesh.hexes), &HexEdges::of(count, &mesh.hexes))
+    hex_report(&HexTopology::of(mesh))
 }
 
 fn kinds(mesh: &HexMesh) -> Vec<&'static str> {
