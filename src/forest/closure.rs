@@ -15,6 +15,8 @@
 //! Rules 1 and 2 alone give the least forest that holds the given one and obeys them. All are applied from the
 //! finest level to the coarsest, and again while anything changes.
 
+use std::ops::AddAssign;
+
 use std::collections::VecDeque;
 
 use super::HexForest;
@@ -63,6 +65,14 @@ pub struct Closure {
     pub balance: usize,
     /// For the method.
     pub method: usize,
+}
+
+impl AddAssign for Closure {
+    fn add_assign(&mut self, more: Self) {
+        self.families += more.families;
+        self.balance += more.balance;
+        self.method += more.method;
+    }
 }
 
 /// Families that are split, or nodes that are looked at, before the monitor is asked again.

@@ -58,7 +58,7 @@ impl Demand {
             let points = face_points(input, f);
             let root = Some(FaceId::new(f));
             let element = |corners| SizedElement { corners, longest: outline(&corners).1, level: 1, root };
-            corner_quads(&points).map(element).collect()
+            corner_quads(&points).map(element).collect::<Vec<SizedElement>>()
         })
     }
 

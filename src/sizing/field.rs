@@ -163,14 +163,15 @@ impl SizeField {
     ///
     /// # Errors
     /// If the monitor stops it.
-    pub fn idle_regions<const N: usize>(
+    pub fn idle_regions<const N: usize, E>(
         &self,
         count: usize,
         monitor: &dyn Monitor,
-        elements: impl Fn(usize) -> Vec<SizedElement<N>> + Sync,
+        elements: impl Fn(usize) -> E + Sync,
     ) -> Result<Vec<u32>, Cancelled>
     where
         [Point; N]: Corners,
+        E: IntoIterator<Item = SizedElement<N>>,
     {
         if self.regions.is_empty() {
             return Ok(Vec::new());

@@ -111,7 +111,8 @@ impl From<HexRefineError> for Failure {
             HexRefineError::Option { .. }
             | HexRefineError::Sizing(_)
             | HexRefineError::TargetCount { .. }
-            | HexRefineError::Target { .. } => Kind::Options,
+            | HexRefineError::Target { .. }
+            | HexRefineError::GrowthRefused { .. } => Kind::Options,
             HexRefineError::TooManyHexes { .. } => Kind::Limit,
             HexRefineError::NoTemplate(_) => Kind::Internal,
         };

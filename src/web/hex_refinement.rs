@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use super::candidates::{centers, check_targets, over};
 use super::errors::Failure;
 use super::hex_mesh::HexMesh;
-use super::hexes::Hexes;
+use super::hexes::{Hexes, told};
 use super::listener::Listener;
 use super::memory::Affordable;
 use super::pool::on_pool;
@@ -86,6 +86,19 @@ impl HexRefinement {
             on_pool(|| work.finish(&Listener)).map_err(|error| affordable.failure(error))
         })?;
         Ok(Hexes::new(refined, self.turned))
+    }
+
+    /// Closes the trees and tells what [`finish`](Self::finish) would make, as `planHexes` does. The session is over.
+    ///
+    /// # Errors
+    /// What the library's `plan` refuses.
+    pub fn plan(mut self) -> Result<JsValue, Failure> {
+        let turned = self.turned;
+        self.session.with_dependent_mut(|affordable, work| {
+            let work = work.take().ok_or_else(over)?;
+            let plan = on_pool(|| work.plan(&Listener)).map_err(|error| affordable.failure(error))?;
+            told(&plan, turned)
+        })
     }
 
     fn look(&mut self) -> Result<(), Failure> {

@@ -123,14 +123,25 @@ struct Plan {
     bytes: u64,
     stages: Vec<StageForecast>,
     added: Added,
+    capped: usize,
+    turned: usize,
+    idle_regions: Vec<u32>,
 }
 
-impl From<HexPlan<'_>> for Plan {
-    fn from(plan: HexPlan) -> Self {
-        let HexForecast { hexes, transition, stages, .. } = plan.forecast().clone();
-        let bytes = hexes as u64 * BYTES_PER_HEX;
-        Self { tree_hexes: plan.tree_hexes(), hexes, transition, bytes, stages, added: plan.added() }
-    }
+/// The plan of refining an input of which so many hexes had been `turned` when it was loaded.
+pub(super) fn told(plan: &HexPlan, turned: usize) -> Result<JsValue, Failure> {
+    let HexForecast { hexes, transition, ref stages, .. } = *plan.forecast();
+    to_object(&Plan {
+        tree_hexes: plan.tree_hexes(),
+        hexes,
+        transition,
+        bytes: hexes as u64 * BYTES_PER_HEX,
+        stages: stages.clone(),
+        added: plan.added(),
+        capped: plan.capped(),
+        turned: turned + plan.turned(),
+        idle_regions: plan.idle_regions().to_vec(),
+    })
 }
 
 /// Tells what [`refine`] will do: an object with the fields of `HexPlan` in `www/lib/results.ts`.
@@ -140,8 +151,8 @@ impl From<HexPlan<'_>> for Plan {
 #[wasm_bindgen(js_name = planHexes)]
 pub fn plan(input: &HexMesh, options: JsValue) -> Result<JsValue, Failure> {
     let affordable = Affordable::<HexOptions>::read(options)?;
-    let plan = on_pool(|| HexPlan::new(&input.mesh, &affordable.options, &Listener).map(Plan::from));
-    to_object(&plan.map_err(|error| affordable.failure(error))?)
+    let plan = on_pool(|| HexPlan::new(&input.mesh, &affordable.options, &Listener));
+    told(&plan.map_err(|error| affordable.failure(error))?, input.turned)
 }
 
 /// A refined mesh, given back as arrays, as the bytes of a file. `input`, which it was made from, tells the tags and

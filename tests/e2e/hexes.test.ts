@@ -83,6 +83,34 @@ describe.each([{ isolated: true }, { isolated: false }])('isolated: $isolated', 
     expect(await bench.difference(picture, await bench.picture())).toBeGreaterThan(0.01);
   });
 
+  look('the plane turns to face the view', async () => {
+    const { page } = bench;
+    await page.getByRole('button', { name: 'Look along Z' }).click();
+    await page.getByRole('button', { name: 'Look from a corner' }).click();
+    await bench.settle();
+    const before = await bench.picture();
+    await page.getByRole('button', { name: 'Cut facing the view' }).click();
+    const normal = await page.evaluate(() => window.hexmill.cutting.section.value?.normal);
+    // From a corner the view goes along no axis, and neither does the plane's normal.
+    expect(normal?.filter((along) => Math.abs(along) > 0.2)).toHaveLength(3);
+    expect(await bench.choice('Cut across', 'Free').isChecked()).toBe(true);
+    expect(await cap()).toBeGreaterThan(CAP.cut);
+    expect(await bench.difference(before, await bench.picture())).toBeGreaterThan(0.05);
+  });
+
+  look('colours show the quality and the levels of hexes', async () => {
+    const plain = await bench.picture();
+    await bench.choice('Colour cells by', 'Quality').check();
+    const quality = await bench.picture();
+    expect(await bench.difference(plain, quality)).toBeGreaterThan(0.05);
+    await bench.choice('Colour cells by', 'Level').check();
+    const levels = await bench.picture();
+    expect(await bench.difference(plain, levels)).toBeGreaterThan(0.05);
+    expect(await bench.difference(quality, levels)).toBeGreaterThan(0.05);
+    await bench.choice('Colour cells by', 'Plain').check();
+    expect(await bench.difference(plain, await bench.picture())).toBeLessThan(0.001);
+  });
+
   look('peeling and a bound on quality show what lies inside', async () => {
     await bench.choice('Cut across', 'Off').check();
     await bench.page.getByLabel('Layers peeled off').fill('1');

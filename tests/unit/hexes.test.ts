@@ -1,7 +1,7 @@
 // Hexes in the built package in Node, with its real modules and worker threads.
 
 import { createMesher, HexMesh, MOST_HEXES, Surface } from 'hexmill';
-import type { GridOptions, HexArrays, HexOptions, Mesher, Progress } from 'hexmill';
+import type { GridOptions, HexArrays, HexOptions, Mesher, Progress, SizeFunction } from 'hexmill';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
 import { hexCases } from '../fixtures/cases.js';
@@ -247,12 +247,13 @@ describe.each([1, 2, 4])('hexes on %i threads', (threads) => {
     for (const [method, hexes] of [['one', 1896], ['two', 1632]] as const) {
       const plan = await mesher.planHexes(grid, { ...options, method });
       expect(plan).toMatchObject({ treeHexes: 8 ** 3 + 7 * 4 ** 3, hexes, stages: [{ refined: 64 }, { refined: 64, interfaceFaces: 96, hexes }] });
-      expect(plan.added).toEqual({ families: 0, balance: 0, method: 0, conflicts: 0, repairs: 0 });
+      expect(plan.added).toEqual({ base: 56, families: 0, balance: 0, method: 0, conflicts: 0, repairs: 0 });
       expect(plan.transition).toBe(plan.stages.reduce((sum, { transition }) => sum + transition, 0));
       expect(plan.bytes).toBe(hexes * 600);
+      expect(plan).toMatchObject({ capped: 0, turned: 0, idleRegions: [] });
       const mesh = await mesher.refineHexes(grid, { ...options, method });
       expect(mesh.hexes.length / 8).toBe(hexes);
-      expect(mesh.added).toEqual({ families: 0, balance: 0, method: 0, conflicts: 0, repairs: 0 });
+      expect(mesh.added).toEqual({ base: 56, families: 0, balance: 0, method: 0, conflicts: 0, repairs: 0 });
       expect(mesh.stages).toHaveLength(2);
       expect(mesh.stages[1]).toMatchObject({ refined: 64, interfaceFaces: 96, pinchedEdges: 0 });
     }
@@ -267,6 +268,30 @@ describe.each([1, 2, 4])('hexes on %i threads', (threads) => {
     expect(one.added.method).toBeGreaterThan(0);
     const made = await mesher.refineHexes(grid, { ...touching, method: 'one' });
     expect(made.added).toMatchObject(one.added);
+  });
+
+  it('refuse to grow where that is wanted, with the place', async () => {
+    using grid = await mesher.makeGrid({ min: [0, 0, 0], max: [5, 5, 5] }, { spacing: 1 });
+    const options: HexOptions = { growth: 'refuse', regions: [{ kind: 'box', min: [1, 1, 1], max: [4, 4, 4], level: 1 }] };
+    const error = { name: 'OptionsError', code: 'growth-refused', message: expect.stringMatching(/^98 elements of level 0 .* the first around/) };
+    await expect(mesher.planHexes(grid, options)).rejects.toMatchObject(error);
+    await expect(mesher.refineHexes(grid, options)).rejects.toMatchObject(error);
+    expect((await mesher.refineHexes(grid, { ...options, method: 'three' })).added.base).toBe(0);
+  });
+
+  it('tell of regions that meet nothing', async () => {
+    const away = { kind: 'sphere', center: [90, 0, 0], radius: 1, level: 2 } as const;
+    const plan = await mesher.planHexes(TWO, { regions: [away, { kind: 'sphere', center: [0, 0, 0], radius: 0.1, level: 1 }, away] });
+    expect(plan.idleRegions).toEqual([0, 2]);
+  });
+
+  it('are planned by a size function as they are refined', async () => {
+    const sizeFunction: SizeFunction = (centers, longest) => longest.map((_, k) => ((centers[3 * k] ?? 0) < 1 ? 0.3 : 1));
+    const options = { method: 'two', sizeFunction } as const;
+    const plan = await mesher.planHexes(TWO, options);
+    const mesh = await mesher.refineHexes(TWO, options);
+    expect(plan.hexes).toBe(mesh.hexes.length / 8);
+    expect(plan.stages.length).toBe(2);
   });
 
   it('ask a size function once a level', async () => {

@@ -2,7 +2,7 @@
 
 export { CancelledError, HexmillError, InputError, InternalError, LimitError, OptionsError } from './errors.js';
 export { MOST_HEXES } from './hex-options.js';
-export type { GridOptions, HexOptions, Method, RefineHexesOptions } from './hex-options.js';
+export type { GridOptions, Growth, HexOptions, Method, RefineHexesOptions } from './hex-options.js';
 export { HexMesh, Surface } from './loaded.js';
 export { HexedSolid, QuadMesh, RefinedHexes } from './made.js';
 export type { Mesher } from './mesher.js';

@@ -18,10 +18,21 @@ export const MOST_HEXES = 2_750_000;
  */
 export type Method = 'one' | 'two' | 'three' | 'auto';
 
+/**
+ * Whether the refined set may grow beyond what is asked for, so that a method can join it to the coarse hexes. Families of
+ * eight and levels that differ by one are no growth.
+ *
+ * - `allow`: it grows to what the method needs, and `added` tells how far.
+ * - `refuse`: where it would have to grow nothing is done, and the error tells where and how far.
+ */
+export type Growth = 'allow' | 'refuse';
+
 /** What the hex mesh is to be like. Without any of `edgeLength`, `levels` and `regions` it stays as it is. */
 export interface HexOptions {
   /** How refined hexes and coarse ones are joined. Default `auto`. */
   method?: Method | undefined;
+  /** Whether more may be refined than is asked for. Default `allow`. */
+  growth?: Growth | undefined;
   /** No edge longer than this, anywhere. */
   edgeLength?: number | undefined;
   /** Refine everything at least this many times. */
@@ -36,7 +47,7 @@ export interface HexOptions {
   maxHexes?: number | undefined;
 }
 
-/** Options of `refineHexes`. */
+/** Options of `refineHexes` and `planHexes`. */
 export interface RefineHexesOptions extends HexOptions, CallOptions {
   /** A size for each element beside what the other options ask for. */
   sizeFunction?: SizeFunction | undefined;
@@ -60,6 +71,7 @@ export interface GridOptions {
 /** Every hex option by name: the compiler holds this to be complete. */
 const HEX_OPTIONS: Readonly<Record<keyof HexOptions, true>> = {
   method: true,
+  growth: true,
   edgeLength: true,
   levels: true,
   regions: true,

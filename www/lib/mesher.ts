@@ -4,7 +4,7 @@ import type { Crews } from './crews.js';
 import type { Desk, InputRecord } from './engine.js';
 import { HexmillError, InputError } from './errors.js';
 import { plainGrid, plainHexOptions } from './hex-options.js';
-import type { GridOptions, HexOptions, RefineHexesOptions } from './hex-options.js';
+import type { GridOptions, RefineHexesOptions } from './hex-options.js';
 import { refuseUnknown } from './known.js';
 import { HexMesh, Surface } from './loaded.js';
 import type { Held } from './loaded.js';
@@ -128,11 +128,15 @@ export class Mesher {
    *
    * @throws {@link OptionsError}, {@link InputError}, {@link LimitError} as `refineHexes` does.
    */
-  async planHexes(input: HexMesh | HexInput, options: HexOptions & InputOptions & CallOptions = {}): Promise<HexPlan> {
-    const { signal, onProgress, format, name, ...hexOptions } = options;
-    const plain = plainHexOptions(hexOptions, LOAD_OPTIONS);
+  async planHexes(input: HexMesh | HexInput, options: RefineHexesOptions & InputOptions = {}): Promise<HexPlan> {
+    const { signal, onProgress, sizeFunction, format, name, ...hexOptions } = options;
+    const plain = plainHexOptions(hexOptions, [...LOAD_OPTIONS, 'sizeFunction']);
     const source = input instanceof HexMesh ? input : await hexSource(input, { format, name });
-    const work = (desk: Desk, id: number) => desk.call('planHexes', { input: id, options: plain });
+    const work = async (desk: Desk, id: number) => {
+      if (!sizeFunction) return desk.call('planHexes', { input: id, options: plain });
+      await chooseSizes(desk, await desk.call('beginHexes', { input: id, options: plain }), sizeFunction);
+      return desk.call('planBegunHexes', {});
+    };
     return this.#foretell(await this.#crews.of('hexes', signal), source, work, { signal, onProgress });
   }
 

@@ -35,7 +35,7 @@ interface Answer<Result> {
 type Handlers = { [N in CallName]: (takes: Calls[N]['takes']) => Answer<Calls[N]['gives']> };
 
 /** Calls that go on with the refinement under way. */
-const GOES_ON: ReadonlySet<CallName> = new Set(['advance', 'finish', 'finishHexes']);
+const GOES_ON: ReadonlySet<CallName> = new Set(['advance', 'finish', 'finishHexes', 'planBegunHexes']);
 
 /** The surfaces or hex meshes of one worker and the refinement under way, if any. */
 export class Meshing {
@@ -107,6 +107,11 @@ export class Meshing {
     beginHexes: ({ input, options }) => {
       this.#hexRefinement = new this.#bindings.HexRefinement(this.#hexes(input), options);
       return candidates(this.#hexRefinement);
+    },
+    planBegunHexes: () => {
+      const refinement = underWay(this.#hexRefinement);
+      this.#hexRefinement = null;
+      return { result: refinement.plan(), transfer: [] };
     },
     finishHexes: () => {
       const refinement = underWay(this.#hexRefinement);

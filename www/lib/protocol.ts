@@ -106,7 +106,7 @@ export interface Candidates {
 }
 
 /**
- * The calls: what each takes and gives. `begin`, `advance` and `finish`, or `beginHexes`, `advance` and `finishHexes`,
+ * The calls: what each takes and gives. `begin`, `advance` and `finish`, or `beginHexes`, `advance` and `planBegunHexes` or `finishHexes`,
  * are one refinement a level at a time; any other call ends it. The module of surfaces answers what stands above
  * `planHexes`, that of solids what stands from `planSolid` on, `reload` and `hexQuality`, that of hexes the rest, `load`,
  * `reload` and `advance`. `input` is the number that the calling thread gave a surface or hex mesh; `reload` tells nothing
@@ -124,6 +124,7 @@ export interface Calls {
   quality: { takes: { mesh: QuadArrays; metric: Metric }; gives: Float32Array };
   planHexes: { takes: { input: number; options: HexOptions }; gives: HexPlan };
   beginHexes: { takes: { input: number; options: HexOptions }; gives: Candidates };
+  planBegunHexes: { takes: object; gives: HexPlan };
   finishHexes: { takes: object; gives: HexData };
   refineHexes: { takes: { input: number; options: HexOptions }; gives: HexData };
   exportHexes: { takes: { input: number; mesh: HexArraysMade; format: HexFormat }; gives: Uint8Array };

@@ -117,6 +117,8 @@ export interface HexQuality {
 
 /** Elements that are refined beyond those asked for, by the reason. */
 export interface AddedHexes {
+  /** Hexes of the input that nothing asks for, so that all elements are in families of eight. */
+  base: number;
   /** To complete families of eight. */
   families: number;
   /** To grade levels by one. */
@@ -143,6 +145,12 @@ export interface HexPlan {
   stages: HexStagePlan[];
   /** Elements that are refined beyond those asked for, by the reason; `repairs` are not known before. */
   added: AddedHexes;
+  /** Elements that will be larger than asked for, because `maxLevels` was reached. */
+  capped: number;
+  /** Hexes of the input that were numbered inside out, and were turned. */
+  turned: number;
+  /** The regions that overlap no part of the input, by their places in `regions`. They refine nothing. */
+  idleRegions: number[];
 }
 
 /** What one stage of refinement will do. */

@@ -65,7 +65,7 @@ mod transition;
 mod trees;
 
 pub use forecast::{HexForecast, StageForecast};
-pub use options::{Added, HexOptions, HexRefineError, Method, RefinedHexes};
+pub use options::{Added, Growth, HexOptions, HexRefineError, Method, RefinedHexes};
 pub use pipeline::refine_hexes;
 pub use plan::HexPlan;
 pub use refinement::HexRefinement;

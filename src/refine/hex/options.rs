@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::stage::{StageMesh, StageReport};
 use crate::Cancelled;
 use crate::forest::{Admits, Closure, admits_method_one};
+use crate::geometry::Point;
 use crate::mesh::check::listed;
 use crate::mesh::{HexId, HexMesh, InvertedHexes};
 use crate::sizing::{Region, SizingError};
@@ -33,12 +34,26 @@ impl Method {
     }
 }
 
+/// Whether the refined set may grow beyond what is asked for, so that a method can join it to the coarse hexes. Families of
+/// eight and levels that differ by one are what refinement consists of; they are no growth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Growth {
+    /// It grows to what the method needs, and [`Added`] tells how far.
+    #[default]
+    Allow,
+    /// Where it would have to grow nothing is done, and the error tells where and how far.
+    Refuse,
+}
+
 /// What [`refine_hexes`](super::refine_hexes) is to do. Lengths are in model units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct HexOptions {
     /// How refined hexes and coarse ones are joined.
     pub method: Method,
+    /// Whether more may be refined than is asked for.
+    pub growth: Growth,
     /// Divide elements until none has an edge longer than this. Smoothing moves nodes near transitions afterwards, and
     /// may make an edge there somewhat longer again.
     pub edge_length: Option<f64>,
@@ -66,6 +81,7 @@ impl Default for HexOptions {
     fn default() -> Self {
         Self {
             method: Method::default(),
+            growth: Growth::default(),
             edge_length: None,
             levels: None,
             regions: Vec::new(),
@@ -80,6 +96,9 @@ impl Default for HexOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Added {
+    /// Hexes of the input that are refined once although nothing asks for it, so that all elements are in families of eight:
+    /// by Methods I and II always, by [`Method::Auto`] where the interface cannot be grouped two by two.
+    pub base: usize,
     /// What the rules of conforming refinement asked for; also after the elements below were added, whose siblings
     /// count among `families`.
     #[serde(flatten)]
@@ -171,10 +190,25 @@ pub enum HexRefineError {
         /// Its target.
         value: f64,
     },
+    /// More would have to be refined than is asked for, and the options refuse that.
+    #[error(
+        "{elements} elements of level {level} that nothing asks for would be refined {reason}, the first around {}, {}, \
+         {}; allow that growth, ask for a larger region there, or use another method", .near.x, .near.y, .near.z
+    )]
+    GrowthRefused {
+        /// How many.
+        elements: usize,
+        /// The level of the first.
+        level: u8,
+        /// What for.
+        reason: &'static str,
+        /// The first one's centre.
+        near: Point,
+    },
     /// The mesh would have more hexes than allowed.
     #[error(
-        "level {level} would bring the mesh to {hexes} hexes or more, over the limit of {limit}; raise the edge length \
-         or the limit"
+        "level {level} would bring the mesh to {hexes} hexes or more, over the limit of {limit}; ask for a larger edge \
+         length, fewer levels or smaller regions, or raise the limit"
     )]
     TooManyHexes {
         /// The level that would do so.
@@ -206,6 +240,7 @@ impl HexRefineError {
             Self::Option { .. } => "option-out-of-range",
             Self::TargetCount { .. } => "target-count",
             Self::Target { .. } => "target-out-of-range",
+            Self::GrowthRefused { .. } => "growth-refused",
             Self::TooManyHexes { .. } => "too-many-hexes",
             Self::NotPositive(_) => "mesh-not-positive",
             Self::NoTemplate(_) => "no-template",

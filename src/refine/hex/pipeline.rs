@@ -14,8 +14,8 @@ use std::sync::Mutex;
 
 use super::attempt::{Attempt, attempt};
 use super::input::boundary_surface;
-use super::options::{HexOptions, HexRefineError, Method, RefinedHexes, check_size};
-use super::plan::HexPlan;
+use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size};
+use super::plan::{Decided, HexPlan};
 use super::stage::{NO_ELEMENT, StageMesh, StageReport, StageResult};
 use crate::mesh::HexMesh;
 use crate::optimize::BoundarySurface;
@@ -76,6 +76,9 @@ impl HexPlan<'_> {
                     Attempt::Conflict(hexes) => (hexes, None),
                     Attempt::Tangled { coarse, hexes } => (coarse, Some(hexes)),
                 };
+                if let Some(count) = tangled.filter(|_| self.options.growth == Growth::Refuse) {
+                    return Err(HexRefineError::Tangled(count));
+                }
                 restarts += 1;
                 let more = self.refine_too(made.number, &elements_of(&made.mesh, &hexes), monitor)?;
                 if more.elements == 0 || restarts > MOST_RESTARTS {
@@ -89,7 +92,8 @@ impl HexPlan<'_> {
                 made.back_to(more.coarsest, &self.input);
             }
         }
-        let Self { input, added, capped, turned, .. } = self;
+        let Self { input, added, decided, .. } = self;
+        let Decided { capped, turned, .. } = decided;
         let Made { mesh, reports: stages, .. } = made;
         Ok(RefinedHexes { added, capped, turned, stages, ..RefinedHexes::new(&input, mesh) })
     }

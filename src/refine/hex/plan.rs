@@ -8,11 +8,12 @@
 //! 4. Look at each level's interface (`forecast`). Where it cannot be separated, refine more, and close again.
 
 use super::forecast::{Foreseen, HexForecast, StageForecast, foresee};
-use super::options::{Added, HexOptions, HexRefineError, Method, check_size};
+use super::options::{Added, Growth, HexOptions, HexRefineError, Method, check_size};
 use super::outline::Outline;
 use super::refinement::HexRefinement;
 use super::stage::{StageMesh, can_be_joined};
 use super::trees::Trees;
+use crate::geometry::Point;
 use crate::mesh::HexMesh;
 use crate::{Monitor, Stage};
 
@@ -27,9 +28,21 @@ pub struct HexPlan<'a> {
     /// None if nothing is to be refined.
     pub(super) outline: Option<Outline>,
     pub(super) added: Added,
-    pub(super) capped: usize,
-    pub(super) turned: usize,
+    pub(super) decided: Decided,
     forecast: HexForecast,
+}
+
+/// What is known of a refinement before its trees are closed.
+#[derive(Debug)]
+pub(super) struct Decided {
+    /// Elements that are larger than asked for, because `max_levels` was reached.
+    pub(super) capped: usize,
+    /// Hexes of the input that were numbered inside out, and were turned.
+    pub(super) turned: usize,
+    /// See [`Added::base`].
+    pub(super) base: usize,
+    /// The regions that overlap no part of the input, by their places among the options'.
+    pub(super) idle_regions: Vec<u32>,
 }
 
 /// What a plan was given more to refine.
@@ -61,12 +74,12 @@ impl<'a> HexPlan<'a> {
         options: &'a HexOptions,
         input: HexMesh,
         trees: Option<Trees>,
-        (capped, turned): (usize, usize),
+        decided: Decided,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
         let forecast = HexForecast::new(input.hexes.len(), Vec::new());
-        let added = Added::default();
-        let mut plan = Self { options, input, outline: None, added, capped, turned, forecast };
+        let added = Added { base: decided.base, ..Added::default() };
+        let mut plan = Self { options, input, outline: None, added, decided, forecast };
         if let Some(trees) = trees {
             plan.settle(trees, monitor)?;
         }
@@ -76,6 +89,21 @@ impl<'a> HexPlan<'a> {
     /// Elements that are refined beyond those that the options ask for, and why.
     pub fn added(&self) -> Added {
         self.added
+    }
+
+    /// Elements that will be larger than asked for, because `max_levels` was reached.
+    pub fn capped(&self) -> usize {
+        self.decided.capped
+    }
+
+    /// Hexes of the input that were numbered inside out, and were turned.
+    pub fn turned(&self) -> usize {
+        self.decided.turned
+    }
+
+    /// The regions that overlap no part of the input, by their places among the options'. They refine nothing.
+    pub fn idle_regions(&self) -> &[u32] {
+        &self.decided.idle_regions
     }
 
     /// How large the mesh will be, and what its transitions will take.
@@ -99,6 +127,7 @@ impl<'a> HexPlan<'a> {
             match self.foresee(&trees, monitor)? {
                 Ok(stages) => break stages,
                 Err((number, more)) => {
+                    self.may_grow(&trees, (number, &more), "where the interface touches itself")?;
                     self.added.conflicts += more.len();
                     trees.split(number, &more, monitor)?;
                 }
@@ -112,11 +141,23 @@ impl<'a> HexPlan<'a> {
 
     /// Step 2.
     fn close(&mut self, trees: &mut Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
-        let more = trees.close(self.options.method.admits(), self.options.max_hexes, monitor)?;
-        let closure = &mut self.added.closure;
-        closure.families += more.families;
-        closure.balance += more.balance;
-        closure.method += more.method;
+        let (admits, limit) = (self.options.method.admits(), self.options.max_hexes);
+        if self.options.growth == Growth::Refuse && admits.is_some() {
+            // What the method adds is what is refined after families and grading are complete.
+            let more = trees.close(None, limit, monitor)?;
+            let before: Vec<usize> = (0..trees.depth()).map(|n| trees.level(n).refined.len()).collect();
+            trees.close(admits, limit, monitor)?;
+            for (number, &before) in before.iter().enumerate() {
+                self.may_grow(
+                    trees,
+                    (number, &trees.level(number).refined[before..]),
+                    "for the method's templates",
+                )?;
+            }
+            self.added.closure += more;
+            return Ok(());
+        }
+        self.added.closure += trees.close(admits, limit, monitor)?;
         Ok(())
     }
 
@@ -134,8 +175,25 @@ impl<'a> HexPlan<'a> {
         let rest: Vec<u32> = rest.collect();
         let leaves = trees.leaf_count() + (trees.children() - 1) * rest.len();
         check_size(self.options, 1, leaves as u64)?;
+        self.may_grow(trees, (0, &rest), "because the interface cannot be grouped two by two")?;
+        self.added.base += rest.len();
         trees.split(0, &rest, monitor)?;
         self.close(trees, monitor)
+    }
+
+    /// Refuses to refine more elements of a level than are asked for, if the options say so.
+    fn may_grow(
+        &self,
+        trees: &Trees,
+        (number, elements): (usize, &[u32]),
+        reason: &'static str,
+    ) -> Result<(), HexRefineError> {
+        let Some(&first) = elements.first().filter(|_| self.options.growth == Growth::Refuse) else {
+            return Ok(());
+        };
+        let corners = trees.level(number).elements[first as usize];
+        let near = corners.iter().map(|n| trees.positions()[n.index()]).sum::<Point>() / 8.0;
+        Err(HexRefineError::GrowthRefused { elements: elements.len(), level: number as u8, reason, near })
     }
 
     /// Step 4: what the stages will make; or a level and its elements that must be refined too.

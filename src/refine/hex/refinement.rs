@@ -2,7 +2,7 @@
 
 use super::input::oriented;
 use super::options::{HexOptions, HexRefineError, Method, RefinedHexes, check_size, validate};
-use super::plan::HexPlan;
+use super::plan::{Decided, HexPlan};
 use super::trees::Trees;
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
@@ -49,6 +49,8 @@ pub struct HexRefinement<'a> {
     /// Elements of the deepest level that would have been refined further, were it not for `max_levels`.
     capped: usize,
     turned: usize,
+    /// Hexes of the input that are refined so that all are in families.
+    base: usize,
 }
 
 impl<'a> HexRefinement<'a> {
@@ -66,7 +68,7 @@ impl<'a> HexRefinement<'a> {
         let &HexOptions { edge_length, gradation, ref regions, .. } = options;
         let sizes = SizeOptions { edge_length, curvature: None, gradation, regions };
         let field = SizeField::of_hexes(&input, sizes)?;
-        Ok(Self { options, input, field, trees: None, capped: 0, turned })
+        Ok(Self { options, input, field, trees: None, capped: 0, turned, base: 0 })
     }
 
     /// The elements that the next [`advance`](Self::advance) decides on: the input's hexes at first, then the
@@ -110,6 +112,7 @@ impl<'a> HexRefinement<'a> {
             return Ok(false);
         }
         if number == 0 && matches!(options.method, Method::One | Method::Two) {
+            self.base = count - marked.len();
             marked = (0..count as u32).collect();
         }
         let is_in_thirds = options.method == Method::Three;
@@ -131,8 +134,12 @@ impl<'a> HexRefinement<'a> {
     /// # Errors
     /// If the mesh would become too large, or the monitor stops it.
     pub fn plan(self, monitor: &dyn Monitor) -> Result<HexPlan<'a>, HexRefineError> {
-        let Self { options, input, trees, capped, turned, .. } = self;
-        HexPlan::closed(options, input, trees, (capped, turned), monitor)
+        let Self { options, input, field, trees, capped, turned, base } = self;
+        let idle_regions = field.idle_regions(input.hexes.len(), monitor, |h| {
+            let corners = input.hexes[h].map(|n| input.positions[n.index()]);
+            [SizedElement { corners, longest: longest_edge(&corners), level: 0, root: None }]
+        })?;
+        HexPlan::closed(options, input, trees, Decided { capped, turned, base, idle_regions }, monitor)
     }
 
     /// Makes the mesh.

@@ -7,6 +7,7 @@ mod hex;
 mod interrupt;
 mod quad;
 mod refine;
+mod refine_hexes;
 mod refusals;
 
 use std::path::Path;

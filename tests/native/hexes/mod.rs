@@ -4,6 +4,7 @@ mod acceptance;
 mod accepted;
 mod counts;
 mod groups;
+mod growth;
 mod judge;
 mod levels;
 pub(crate) mod meshes;

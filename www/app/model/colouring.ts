@@ -28,7 +28,7 @@ export function qualityPlace({ range: [low, high], worst }: MetricInfo, value: n
 /** A mesh with levels. */
 type Levelled = Exclude<Cells, HexedSolid>;
 
-/** The levels that colours span, at least two. Of hexes the first is the least there is: where any are refined, all are. */
+/** The levels that colours span, at least two. Of hexes the first is the least there is: methods one and two refine all. */
 export function levelRange(mesh: Levelled): [number, number] {
   const least = isHexes(mesh) ? mesh.level.reduce((low, level) => Math.min(low, level), 255) : 0;
   return [least, mesh.level.reduce((most, level) => Math.max(most, level), least + 1)];

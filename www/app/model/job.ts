@@ -109,7 +109,7 @@ export class Maker {
     }
     const hexes = await this.#hexes(input, settings, { signal });
     const plan = await mesher.planHexes(hexes, { ...toHexOptions(settings, atSurface(input, settings)), signal });
-    return { noun: 'hex', cells: plan.hexes, exact: true, bytes: plan.bytes, levels: plan.stages.length, added: plan.added, solid: null, idleRegions: [] };
+    return { noun: 'hex', cells: plan.hexes, exact: true, bytes: plan.bytes, levels: plan.stages.length, added: plan.added, solid: null, idleRegions: plan.idleRegions };
   }
 
   async make(input: Input, settings: Settings, options: CallOptions): Promise<Made> {

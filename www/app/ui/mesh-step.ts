@@ -56,8 +56,8 @@ function memory({ levels, bytes: size }: Forecast): string {
 /** What the work will add to what was asked for, and why. */
 function hexEstimate(guess: Forecast): TemplateResult {
   const { cells, added } = guess;
-  const { families = 0, balance = 0, method = 0, conflicts = 0 } = added ?? {};
-  const all = [[families, 'whole families'], [balance, 'grading'], [method, 'the method'], [conflicts, 'conflicts']] as const;
+  const { base = 0, families = 0, balance = 0, method = 0, conflicts = 0 } = added ?? {};
+  const all = [[base, 'families everywhere'], [families, 'whole families'], [balance, 'grading'], [method, 'the method'], [conflicts, 'conflicts']] as const;
   const reasons = all
     .filter(([n]) => n > 0)
     .map(([n, why]) => `${roughCount(n)} for ${why}`);

@@ -4,6 +4,9 @@ use std::fs::read_to_string;
 
 use super::failure::Failure;
 
+/// What to do where a refinement would take more than there is.
+pub(super) const ADVICE: &str = "raise the edge length, ask for fewer levels or smaller regions";
+
 /// A limit of cells: the caller's, or that of memory where this is lower.
 pub(super) struct Limit {
     pub(super) cells: u64,
@@ -25,14 +28,14 @@ impl Limit {
     }
 
     /// The refusal of so many `cells`, if it is memory that refuses them; `before` says of which file.
-    pub(super) fn exceeded(&self, before: &str, cells: u64, name: &str) -> Option<Failure> {
+    pub(super) fn exceeded(&self, before: &str, cells: u64, name: &str, advice: &str) -> Option<Failure> {
         let free = self.free?;
         let gigabytes = |bytes: u64| bytes as f64 / 1e9;
         Some(Failure::refused(
             "memory-exceeded",
             format!(
                 "{before}: the mesh would have {cells} {name} or more and take {:.1} GB, of which {:.1} GB are free; \
-                 raise the edge length, ask for fewer levels or smaller regions, or free memory",
+                 {advice}, or free memory",
                 gigabytes(cells.saturating_mul(self.bytes_per_cell)),
                 gigabytes(free)
             ),
@@ -75,7 +78,8 @@ mod tests {
     fn memory_limits_what_the_caller_allows() {
         let limit = Limit::within(100, 330, Some(33_000 - 1));
         assert_eq!(limit.cells, 99);
-        let message = limit.exceeded("a.vtu", 2_000_000, "hexes").expect("memory is short").to_string();
+        let message =
+            limit.exceeded("a.vtu", 2_000_000, "hexes", ADVICE).expect("memory is short").to_string();
         assert!(
             message.starts_with("error[memory-exceeded]: a.vtu: the mesh would have 2000000 hexes"),
             "{message}"
@@ -83,7 +87,7 @@ mod tests {
         for free in [Some(33_000), None] {
             let limit = Limit::within(100, 330, free);
             assert_eq!(limit.cells, 100);
-            assert!(limit.exceeded("a.vtu", 101, "hexes").is_none());
+            assert!(limit.exceeded("a.vtu", 101, "hexes", ADVICE).is_none());
         }
     }
 }

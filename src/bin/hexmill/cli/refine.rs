@@ -25,14 +25,15 @@ pub(super) struct Refined {
     pub(super) work: Option<HexRefinementReport>,
     /// Of a surface.
     pub(super) dropped: Option<DroppedFeatures>,
-    /// Of a surface: the regions that overlap no part of it, as they were given.
+    /// The regions that overlap no part of the input, as they were given.
     pub(super) idle_regions: Vec<String>,
 }
 
 /// Reads, refines, writes and reports.
 pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     let format = format_to_write(&args.making.output)?;
-    check_levels(args)?;
+    // More than surfaces may have, whose limit is the higher one, is told before the file is read.
+    deepest(args, QuadOptions::default().max_levels)?;
     let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
     let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
     args.making.prepare(&inputs)?;
@@ -57,11 +58,11 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     args.making.close(report, &progress, quiet, in_words)
 }
 
-/// Refuses more levels than there may be.
-fn check_levels(args: &RefineArgs) -> Result<(), Failure> {
-    let most = args.max_levels.unwrap_or(QuadOptions::default().max_levels);
+/// The deepest level: as given, or `default`. Refuses more levels than that.
+pub(super) fn deepest(args: &RefineArgs, default: u8) -> Result<u8, Failure> {
+    let most = args.max_levels.unwrap_or(default);
     match args.levels.filter(|&levels| levels > most) {
-        None => Ok(()),
+        None => Ok(most),
         Some(levels) => Err(Failure::Usage(format!(
             "--levels is {levels}, but --max-levels {most}; give fewer levels, or raise --max-levels"
         ))),
@@ -82,6 +83,7 @@ fn in_words(path: &Path, report: &Report) -> String {
             report.options.as_ref().map_or(0, |o| o.max_levels)
         ));
     }
+    lines.extend(report.refinement.iter().flat_map(|work| work.in_words(mesh.counts.hexes)));
     if let Some(DroppedFeatures { polylines, creases, corners }) = report.dropped_features {
         lines.push(format!(
             "  {polylines} polylines, {creases} creases and {corners} corners of the input do not go over to the mesh"

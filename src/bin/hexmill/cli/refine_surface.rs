@@ -5,10 +5,10 @@ use hexmill::refine::{QuadOptions, RefineError, idle_regions, refine_quads};
 
 use super::args::RefineArgs;
 use super::failure::Failure;
-use super::memory::Limit;
+use super::memory::{ADVICE, Limit};
 use super::mesh_report::Counts;
 use super::progress::Progress;
-use super::refine::Refined;
+use super::refine::{Refined, deepest};
 use super::report::{DroppedFeatures, OptionsReport};
 
 /// Peak memory of the command in bytes a quad: encoding takes more than refinement does. Measured with 1.5 million quads
@@ -17,9 +17,11 @@ const BYTES_PER_QUAD: u64 = 350;
 
 /// Refines the faces of `document`.
 pub(super) fn refine(args: &RefineArgs, document: Document, progress: &Progress) -> Result<Refined, Failure> {
-    if args.method.is_some() || args.max_hexes.is_some() {
-        let message =
-            format!("--method and --max-hexes are for hexes; {} holds a surface", args.input.display());
+    if args.method.is_some() || args.no_growth || args.max_hexes.is_some() {
+        let message = format!(
+            "--method, --no-growth and --max-hexes are for hexes; {} holds a surface",
+            args.input.display()
+        );
         return Err(Failure::Usage(message));
     }
     let surface = document.into_surface().expect("the document holds faces");
@@ -46,7 +48,7 @@ pub(super) fn refine(args: &RefineArgs, document: Document, progress: &Progress)
 fn refused(args: &RefineArgs, limit: &Limit, error: &RefineError) -> Failure {
     let for_memory = match error {
         RefineError::TooManyQuads { quads, .. } => {
-            limit.exceeded(&args.input.display().to_string(), *quads, "quads")
+            limit.exceeded(&args.input.display().to_string(), *quads, "quads", ADVICE)
         }
         _ => None,
     };
@@ -62,7 +64,7 @@ fn options(args: &RefineArgs) -> Result<QuadOptions, Failure> {
         curvature: args.curvature,
         gradation: args.gradation.unwrap_or(default.gradation),
         keep_coarse: args.keep_coarse,
-        max_levels: args.max_levels.unwrap_or(default.max_levels),
+        max_levels: deepest(args, default.max_levels)?,
         max_quads: args.max_quads.unwrap_or(default.max_quads),
     })
 }
@@ -80,5 +82,6 @@ fn options_report(args: &RefineArgs, options: &QuadOptions) -> OptionsReport {
         max_quads: Some(options.max_quads),
         max_hexes: None,
         method: None,
+        growth: None,
     }
 }

@@ -6,7 +6,7 @@ use hexmill::hexing::HexingReport;
 use hexmill::io::Format;
 use hexmill::mesh::NodeId;
 use hexmill::mesh::{Distances, Features};
-use hexmill::refine::hex::{Added, HexForecast, Method, StageReport};
+use hexmill::refine::hex::{Added, Growth, HexForecast, Method, StageReport};
 use serde::Serialize;
 
 use super::failure::Failure;
@@ -33,7 +33,7 @@ pub(crate) struct Report {
     /// Of a refinement of a surface.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) dropped_features: Option<DroppedFeatures>,
-    /// Of a refinement of a surface: the regions that overlap no part of it.
+    /// Of a refinement: the regions that overlap no part of the input.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) idle_regions: Vec<String>,
     /// Of the meshing of a solid.
@@ -143,6 +143,27 @@ pub(crate) struct HexRefinementReport {
     pub(crate) levels: Vec<StageReport>,
 }
 
+impl HexRefinementReport {
+    /// What was not told before the work, a line each; `hexes` is how many there are.
+    pub(crate) fn in_words(&self, hexes: usize) -> Vec<String> {
+        let Self { forecast, added, turned, levels } = self;
+        let transition = levels.last().map_or(0, |stage| stage.transition);
+        let told = [
+            (*turned > 0, format!("{turned} hexes of the input were numbered inside out, and were turned")),
+            (
+                added.repairs > 0,
+                format!(
+                    "{} elements are refined where transition hexes could not be untangled",
+                    added.repairs
+                ),
+            ),
+            (hexes != forecast.hexes, format!("{hexes} hexes, not {} as was told before", forecast.hexes)),
+            (transition > 0, format!("{transition} hexes are transitions of the last level")),
+        ];
+        told.into_iter().filter(|(is_so, _)| *is_so).map(|(_, line)| format!("  {line}")).collect()
+    }
+}
+
 /// The command line's options as they were given, defaults filled in.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -160,6 +181,8 @@ pub(crate) struct OptionsReport {
     pub(crate) max_hexes: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) method: Option<Method>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) growth: Option<Growth>,
 }
 
 /// What was asked of the mesh of a planar face, and what could not be met.

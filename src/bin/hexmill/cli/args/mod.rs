@@ -95,6 +95,10 @@ pub(crate) struct RefineArgs {
     #[arg(long, value_enum, value_name = "METHOD")]
     pub(crate) method: Option<MethodArg>,
 
+    /// Refuse to refine more than is asked for, where the method needs that; hexes only
+    #[arg(long)]
+    pub(crate) no_growth: bool,
+
     /// Turn of the surface's normal that one edge may span, in degrees; surfaces only
     #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
     pub(crate) curvature: Option<f64>,
@@ -221,7 +225,7 @@ pub(crate) enum MethodArg {
     Two,
     /// A pillow, hexes in 27
     Three,
-    /// Method two, or three where the set cannot be grouped two by two
+    /// Method two; hexes of the input that nothing asks to refine stay whole where that can be
     Auto,
 }
 

@@ -1,0 +1,98 @@
+//! What is refined beyond what is asked for: told, and refused where that is wanted.
+
+use hexmill::Silent;
+use hexmill::mesh::{check_hexes, mesh_hash};
+use hexmill::refine::hex::{Growth, HexOptions, HexPlan, HexRefineError, Method, refine_hexes};
+use hexmill::sizing::Region;
+
+use super::acceptance::block;
+use super::meshes::cubes;
+
+const METHODS: [Method; 4] = [Method::One, Method::Two, Method::Three, Method::Auto];
+
+fn options(method: Method, growth: Growth, regions: &[Region]) -> HexOptions {
+    HexOptions { method, growth, regions: regions.to_vec(), ..HexOptions::default() }
+}
+
+/// Two cubes that touch at an edge: Method II can part them, Method I fills the corners between them.
+fn touching() -> Vec<Region> {
+    vec![block([1.0; 3], [2.0; 3], 2), block([2.0, 2.0, 1.0], [3.0, 3.0, 2.0], 2)]
+}
+
+/// Methods I and II refine the whole input once, Method II by itself only what it can group, and 27 children need no
+/// families.
+#[test]
+fn hexes_of_the_input_that_nothing_asks_for_are_told() {
+    // The middle 3 x 3 x 3 of 5 x 5 x 5 cannot be grouped two by two, the middle 2 x 2 x 2 of 4 x 4 x 4 can.
+    let (odd, even) = (block([1.0; 3], [4.0; 3], 1), block([1.0; 3], [3.0; 3], 1));
+    for (size, region, rest, auto) in [(5, odd, 125 - 27, 125 - 27), (4, even, 64 - 8, 0)] {
+        let input = cubes(size);
+        for (method, base) in METHODS.into_iter().zip([rest, rest, 0, auto]) {
+            let options = options(method, Growth::Allow, std::slice::from_ref(&region));
+            let plan = HexPlan::new(&input, &options, &Silent).expect("a plan");
+            assert_eq!(plan.added().base, base, "{size}, {method:?}");
+            let refined = plan.carry_out(&Silent).expect("a mesh");
+            assert_eq!(refined.added.base, base);
+            let asked = size.pow(3) as usize - rest;
+            assert_eq!(refined.stages[0].refined, asked + base, "{size}, {method:?}");
+        }
+    }
+}
+
+#[test]
+fn growth_is_refused_with_the_place_if_that_is_wanted() {
+    let input = cubes(4);
+    let grown =
+        refine_hexes(&input, &options(Method::One, Growth::Allow, &touching()), &Silent).expect("a mesh");
+    assert!(grown.added.closure.method > 0);
+    let error = refine_hexes(&input, &options(Method::One, Growth::Refuse, &touching()), &Silent);
+    let Err(HexRefineError::GrowthRefused { elements, level, near, .. }) = &error else {
+        panic!("{error:?}")
+    };
+    assert!(*elements > 0 && *level == 1);
+    // Beside the edge where the two cubes touch.
+    assert!(
+        (near.x - 2.0).abs() < 1.0 && (near.y - 2.0).abs() < 1.0 && near.z > 0.0 && near.z < 3.0,
+        "{near}"
+    );
+    assert_eq!(error.as_ref().unwrap_err().code(), "growth-refused");
+    // What cannot be grouped needs the rest of the input.
+    let odd = [block([1.0; 3], [4.0; 3], 1)];
+    let error = refine_hexes(&cubes(5), &options(Method::Auto, Growth::Refuse, &odd), &Silent);
+    assert!(matches!(error, Err(HexRefineError::GrowthRefused { elements: 98, level: 0, .. })), "{error:?}");
+}
+
+/// Where nothing has to grow the mesh is the same, and nothing is refused.
+#[test]
+fn refusing_growth_changes_no_mesh() {
+    let input = cubes(4);
+    for (method, regions) in [
+        (Method::One, vec![block([1.0; 3], [3.0; 3], 2)]),
+        (Method::Two, touching()),
+        (Method::Two, vec![block([1.0; 3], [3.0; 3], 3)]),
+        (Method::Three, vec![block([1.0; 3], [3.0; 3], 2)]),
+        (Method::Auto, vec![block([1.0; 3], [3.0; 3], 2)]),
+    ] {
+        let [allowed, refused] = [Growth::Allow, Growth::Refuse].map(|growth| {
+            refine_hexes(&input, &options(method, growth, &regions), &Silent).expect("nothing has to grow")
+        });
+        let hash = |mesh: &hexmill::mesh::HexMesh| mesh_hash(&mesh.positions, &mesh.hexes);
+        assert_eq!(hash(&allowed.mesh), hash(&refused.mesh), "{method:?}");
+        assert_eq!(allowed.added, refused.added);
+        assert!(check_hexes(&refused.mesh).is_empty());
+    }
+}
+
+#[test]
+fn regions_that_meet_no_hex_are_told() {
+    let (input, away) = (cubes(3), block([7.0; 3], [8.0; 3], 2));
+    let regions = [away.clone(), block([1.0; 3], [2.0; 3], 1), away];
+    for method in METHODS {
+        let options = options(method, Growth::Allow, &regions);
+        assert_eq!(
+            HexPlan::new(&input, &options, &Silent).expect("a plan").idle_regions(),
+            [0, 2],
+            "{method:?}"
+        );
+    }
+}
