@@ -127,7 +127,13 @@ impl Corner {
 /// `x` to the power of two to the `doublings`.
 #[inline]
 fn doubled(x: f64, doublings: u32) -> f64 {
-    (0..doublings).fold(x, |x, _| x * x)
+    let square = x * x;
+    match doublings {
+        0 => x,
+        1 => square,
+        2 => square * square,
+        more => (2..more).fold(square * square, |x, _| x * x),
+    }
 }
 
 #[cfg(test)]

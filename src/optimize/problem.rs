@@ -120,8 +120,13 @@ impl Problem {
     }
 
     /// Where the corners of a cell are.
+    #[inline]
     pub(crate) fn corners(&self, cell: usize) -> [Point; 8] {
-        self.cells[cell].map(|n| self.points[n as usize])
+        let mut corners = [Point::ZERO; 8];
+        for (corner, &n) in corners.iter_mut().zip(&self.cells[cell]) {
+            *corner = self.points[n as usize];
+        }
+        corners
     }
 
     /// Asks every cell again whether it is positive.

@@ -30,6 +30,8 @@ struct Spoke {
     /// From the end to where the node is tried, and the square of that length.
     arm: Point,
     square: f64,
+    /// Two over that square, where derivatives are asked for.
+    share: f64,
     /// How much of `arm` times its transpose there is in the second derivatives.
     outer: f64,
 }
@@ -55,6 +57,25 @@ struct Beside {
     sum: f64,
     product: f64,
 }
+
+/// For each corner and each of its neighbours the two others of that one's, right-handed with the corner itself.
+const BEYOND: [[[u8; 2]; 3]; 8] = {
+    let (mut all, mut k) = ([[[0; 2]; 3]; 8], 0);
+    while k < 8 {
+        let mut i = 0;
+        while i < 3 {
+            let turned = NEIGHBOURS[NEIGHBOURS[k][i] as usize];
+            let mut place = 0;
+            while turned[place] as usize != k {
+                place += 1;
+            }
+            all[k][i] = [turned[(place + 1) % 3], turned[(place + 2) % 3]];
+            i += 1;
+        }
+        k += 1;
+    }
+    all
+};
 
 /// How a star is with the node in some place.
 #[derive(Clone, Copy, Debug)]
@@ -87,16 +108,19 @@ impl Star {
 
     /// Adds a cell by its nodes and where they are; the star's node is at its corner `k`.
     fn add(&mut self, nodes: &[u32; 8], points: &[Point; 8], k: usize, eps: f64) {
-        let around = NEIGHBOURS[k].map(usize::from);
-        let ends = around.map(|end| points[end]);
-        let beside = around.map(|end| {
-            let turned = NEIGHBOURS[end].map(usize::from);
-            let place = turned.iter().position(|&n| n == k).expect("neighbours are mutual");
-            let [b, c] = [1, 2].map(|turn| points[turned[(place + turn) % 3]] - points[end]);
+        // Loops, since closures over arrays are not inlined here.
+        let mut ends = [Point::ZERO; 3];
+        let mut spokes = [0; 3];
+        let mut beside = [Beside { slope: Point::ZERO, sum: 0.0, product: 0.0 }; 3];
+        for i in 0..3 {
+            let around = usize::from(NEIGHBOURS[k][i]);
+            ends[i] = points[around];
+            spokes[i] = self.spoke(nodes[around], ends[i]);
+            let b = points[usize::from(BEYOND[k][i][0])] - ends[i];
+            let c = points[usize::from(BEYOND[k][i][1])] - ends[i];
             let (b_square, c_square) = (b.length_squared(), c.length_squared());
-            Beside { slope: b.cross(c), sum: b_square + c_square, product: b_square * c_square }
-        });
-        let spokes = [0, 1, 2].map(|i| self.spoke(nodes[around[i]], ends[i]));
+            beside[i] = Beside { slope: b.cross(c), sum: b_square + c_square, product: b_square * c_square };
+        }
         let slope = (ends[2] - ends[0]).cross(ends[1] - ends[0]);
         self.cells.push(Cell { spokes, slope, beside, eps_squared: eps * eps });
     }
@@ -104,7 +128,7 @@ impl Star {
     /// The place of the spoke to `node` among the spokes.
     fn spoke(&mut self, node: u32, end: Point) -> u8 {
         let place = self.spokes.iter().position(|spoke| spoke.node == node).unwrap_or_else(|| {
-            self.spokes.push(Spoke { node, end, arm: Point::ZERO, square: 0.0, outer: 0.0 });
+            self.spokes.push(Spoke { node, end, arm: Point::ZERO, square: 0.0, share: 0.0, outer: 0.0 });
             self.spokes.len() - 1
         });
         u8::try_from(place).expect("a node has fewer than 256 edges")
@@ -147,6 +171,7 @@ impl Star {
     /// energy is infinite.
     pub(crate) fn expand(&mut self, v: Point, weights: Weights) -> Option<(Expansion, f64)> {
         self.move_to(v);
+        self.spokes.iter_mut().for_each(|spoke| spoke.share = 2.0 / spoke.square);
         let (n, mut worst) = (weights.power(), 0.0_f64);
         let Expansion { mut value, mut gradient, mut hessian } = Expansion::default();
         let mut diagonal = 0.0;
@@ -160,7 +185,7 @@ impl Star {
             let mut of_product = Point::ZERO;
             for s in cell.spokes {
                 let spoke = &mut self.spokes[usize::from(s)];
-                let share = 2.0 / spoke.square;
+                let share = spoke.share;
                 of_square += spoke.arm;
                 of_product += spoke.arm * share;
                 spoke.outer -= at_node.angles * share * share;
@@ -182,7 +207,7 @@ impl Star {
                 worst = worst.max(at_end.angles_squared);
                 let spoke = &mut self.spokes[usize::from(s)];
                 // Both gradients are a multiple of the arm and one of the slope.
-                let (of_square, of_product) = (2.0 / corner.mean_square, 2.0 / spoke.square);
+                let (of_square, of_product) = (2.0 / corner.mean_square, spoke.share);
                 let both = at_end.shape + at_end.angles;
                 let along = at_end.shape * of_square + at_end.angles * of_product;
                 gradient += spoke.arm * along + slope * (at_end.slope * both);

@@ -54,9 +54,11 @@ pub struct JacobianBound {
 /// assert_eq!(is_positive(&cube), Certainty::Positive);
 /// ```
 pub fn is_positive(corners: &[Point; 8]) -> Certainty {
-    let whole = Part::of(corners);
-    let zero = ROUNDING * magnitude(corners);
-    if whole.least() > zero {
+    let edges = Edges::of(corners);
+    let whole = Part::of_edges(&edges);
+    let zero = ROUNDING * edges.magnitude();
+    // One answer for all, so that no branch keeps the numbers from being compared side by side.
+    if whole.0.iter().fold(true, |all, &c| all & (c > zero)) {
         return Certainty::Positive;
     }
     let mut queue = BinaryHeap::from([whole]);
@@ -90,15 +92,6 @@ pub fn min_jacobian_bound(corners: &[Point; 8]) -> JacobianBound {
     bound
 }
 
-/// The product of the longest edges in the three directions.
-fn magnitude(corners: &[Point; 8]) -> f64 {
-    let edges = Edges::of(corners);
-    let longest = |edges: &[[Point; 2]; 2]| {
-        edges.as_flattened().iter().fold(0.0, |most: f64, e| most.max(e.length_squared())).sqrt()
-    };
-    longest(&edges.x) * longest(&edges.y) * longest(&edges.z)
-}
-
 /// The edges of a hex by direction: `x[j][k]` at y = j, z = k; `y[i][k]`; `z[i][j]`.
 struct Edges {
     x: [[Point; 2]; 2],
@@ -109,18 +102,41 @@ struct Edges {
 impl Edges {
     fn of(corners: &[Point; 8]) -> Self {
         let at = |i: usize, j: usize, k: usize| corners[usize::from(CORNER_AT[i + 2 * j + 4 * k])];
-        let table = |edge: &dyn Fn(usize, usize) -> Point| [0, 1].map(|a| [0, 1].map(|b| edge(a, b)));
-        Self {
-            x: table(&|j, k| at(1, j, k) - at(0, j, k)),
-            y: table(&|i, k| at(i, 1, k) - at(i, 0, k)),
-            z: table(&|i, j| at(i, j, 1) - at(i, j, 0)),
+        let none = [[Point::ZERO; 2]; 2];
+        let mut edges = Self { x: none, y: none, z: none };
+        for a in 0..2 {
+            for b in 0..2 {
+                edges.x[a][b] = at(1, a, b) - at(0, a, b);
+                edges.y[a][b] = at(a, 1, b) - at(a, 0, b);
+                edges.z[a][b] = at(a, b, 1) - at(a, b, 0);
+            }
         }
+        edges
+    }
+
+    /// The product of the longest edges in the three directions.
+    fn magnitude(&self) -> f64 {
+        let longest = |edges: &[[Point; 2]; 2]| {
+            edges.as_flattened().iter().fold(0.0, |most: f64, e| most.max(e.length_squared())).sqrt()
+        };
+        longest(&self.x) * longest(&self.y) * longest(&self.z)
     }
 }
 
 /// A quadratic in x, y and z over a part of the hex: the coefficient at i, j, k stands at i + 3j + 9k.
 #[derive(Clone, Copy)]
 struct Part([f64; 27]);
+
+/// One over the number of products whose mean each coefficient is.
+const SHARES: [f64; 27] = {
+    let (mut all, mut c) = ([1.0; 27], 0);
+    while c < 27 {
+        let middles = (c % 3 == 1) as u32 + (c / 3 % 3 == 1) as u32 + (c / 9 == 1) as u32;
+        all[c] = 1.0 / (1 << middles) as f64;
+        c += 1;
+    }
+    all
+};
 
 /// Where the coefficients stand that are values at the part's corners.
 const ENDS: [usize; 8] = [0, 2, 6, 8, 18, 20, 24, 26];
@@ -129,10 +145,13 @@ const ENDS: [usize; 8] = [0, 2, 6, 8, 18, 20, 24, 26];
 const STRIDES: [usize; 3] = [1, 3, 9];
 
 impl Part {
+    fn of(corners: &[Point; 8]) -> Self {
+        Self::of_edges(&Edges::of(corners))
+    }
+
     /// Each pair of linear factors in one parameter multiplies to a quadratic whose middle coefficient is the mean
     /// of two products.
-    fn of(corners: &[Point; 8]) -> Self {
-        let edges = Edges::of(corners);
+    fn of_edges(edges: &Edges) -> Self {
         let mut sums = [0.0; 27];
         for yi in 0..2 {
             for yk in 0..2 {
@@ -148,8 +167,10 @@ impl Part {
                 }
             }
         }
-        const SHARE: [f64; 3] = [1.0, 0.5, 1.0];
-        Self(std::array::from_fn(|c| sums[c] * (SHARE[c % 3] * SHARE[c / 3 % 3] * SHARE[c / 9])))
+        for (sum, share) in sums.iter_mut().zip(SHARES) {
+            *sum *= share;
+        }
+        Self(sums)
     }
 
     /// The least coefficient, or NaN where there is one.

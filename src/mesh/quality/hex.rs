@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::bernstein::{Certainty, is_positive};
 use super::{Distribution, Summary};
 use crate::geometry::Point;
-use crate::mesh::numbering::hex::{EDGES, NEIGHBOURS};
+use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES, NEIGHBOURS};
 use crate::mesh::{HexMesh, hex_volume};
 use crate::parallel;
 
@@ -65,11 +65,32 @@ pub fn scaled_jacobian(corners: &[Point; 8]) -> f64 {
 /// The determinant of the unit vectors along the three edges of each corner, from -1 to 1; 0 at the ends of an edge
 /// of no length.
 pub fn corner_scaled_jacobians(corners: &[Point; 8]) -> [f64; 8] {
-    std::array::from_fn(|k| {
-        let [a, b, c] = NEIGHBOURS[k].map(|end| (corners[usize::from(end)] - corners[k]).normalize_or_zero());
-        a.dot(b.cross(c))
-    })
+    let mut units = [Point::ZERO; 12];
+    for (unit, [low, high]) in units.iter_mut().zip(EDGES) {
+        *unit = (corners[usize::from(high)] - corners[usize::from(low)]).normalize_or_zero();
+    }
+    let mut jacobians = [0.0; 8];
+    for (jacobian, spokes) in jacobians.iter_mut().zip(SPOKES) {
+        let [a, b, c] = spokes.map(|(edge, sign)| units[usize::from(edge)] * sign);
+        *jacobian = a.dot(b.cross(c));
+    }
+    jacobians
 }
+
+/// The edges at each corner in the order of [`NEIGHBOURS`], with -1 for those that arrive there.
+const SPOKES: [[(u8, f64); 3]; 8] = {
+    let (mut all, mut k) = ([[(0, 1.0); 3]; 8], 0);
+    while k < 8 {
+        let mut i = 0;
+        while i < 3 {
+            let edge = EDGE_BETWEEN[k][NEIGHBOURS[k][i] as usize];
+            all[k][i] = (edge, if EDGES[edge as usize][0] as usize == k { 1.0 } else { -1.0 });
+            i += 1;
+        }
+        k += 1;
+    }
+    all
+};
 
 /// The longest edge over the shortest.
 fn aspect(corners: &[Point; 8]) -> f64 {
