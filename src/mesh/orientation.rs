@@ -14,7 +14,8 @@ const ROUNDING: f64 = 1e-12;
 /// Hexes that cannot be put right by numbering them otherwise, ascending.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{} hexes are inside out at some of their corners, but not at all of them: {}; mend the mesh",
+    "{} hexes are inside out at some of their corners, but not at all of them: {} (counted from 0, in the file's order); \
+     list their nodes bottom before top, both in the same sense, or move nodes that fold them",
     .0.len(), listed(.0)
 )]
 pub struct InvertedHexes(pub Vec<HexId>);

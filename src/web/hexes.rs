@@ -126,6 +126,7 @@ struct Plan {
     capped: usize,
     turned: usize,
     idle_regions: Vec<u32>,
+    coincident_nodes: usize,
 }
 
 /// The plan of refining an input of which so many hexes had been `turned` when it was loaded.
@@ -141,6 +142,7 @@ pub(super) fn told(plan: &HexPlan, turned: usize) -> Result<JsValue, Failure> {
         capped: plan.capped(),
         turned: turned + plan.turned(),
         idle_regions: plan.idle_regions().to_vec(),
+        coincident_nodes: plan.coincident_nodes(),
     })
 }
 

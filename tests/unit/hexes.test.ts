@@ -250,7 +250,7 @@ describe.each([1, 2, 4])('hexes on %i threads', (threads) => {
       expect(plan.added).toEqual({ base: 56, families: 0, balance: 0, method: 0, conflicts: 0, repairs: 0 });
       expect(plan.transition).toBe(plan.stages.reduce((sum, { transition }) => sum + transition, 0));
       expect(plan.bytes).toBe(hexes * 600);
-      expect(plan).toMatchObject({ capped: 0, turned: 0, idleRegions: [] });
+      expect(plan).toMatchObject({ capped: 0, turned: 0, idleRegions: [], coincidentNodes: 0 });
       const mesh = await mesher.refineHexes(grid, { ...options, method });
       expect(mesh.hexes.length / 8).toBe(hexes);
       expect(mesh.added).toEqual({ base: 56, families: 0, balance: 0, method: 0, conflicts: 0, repairs: 0 });

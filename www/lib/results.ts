@@ -151,6 +151,8 @@ export interface HexPlan {
   turned: number;
   /** The regions that overlap no part of the input, by their places in `regions`. They refine nothing. */
   idleRegions: number[];
+  /** Nodes of the input that stand where earlier ones do; hexes there that do not share nodes are no neighbours. */
+  coincidentNodes: number;
 }
 
 /** What one stage of refinement will do. */

@@ -3,6 +3,7 @@
 use super::labels::{Label, NO_LABEL, label_of};
 use super::options::HexRefineError;
 use super::shift::RIDGE_DEGREES;
+use crate::geometry::Point;
 use crate::mesh::check::{Defect, summary};
 use crate::mesh::quality::{Certainty, is_positive};
 use crate::mesh::topology::HexFaces;
@@ -28,6 +29,7 @@ pub(super) fn oriented(input: &HexMesh, monitor: &dyn Monitor) -> Result<(HexMes
     monitor.checkpoint(INPUT, 0.1)?;
     let mut defects = check_hexes_within(&mesh, monitor)?;
     defects.retain(|defect| !matches!(defect, Defect::UnusedNode { .. }));
+    keep_causes(&mut defects);
     if !defects.is_empty() {
         let kinds = summary(&defects).iter().map(ToString::to_string).collect();
         return Err(HexRefineError::InvalidInput(kinds));
@@ -44,6 +46,33 @@ pub(super) fn oriented(input: &HexMesh, monitor: &dyn Monitor) -> Result<(HexMes
     drop_unused_nodes(&mut mesh);
     monitor.checkpoint(INPUT, 1.0)?;
     Ok((mesh, turned))
+}
+
+/// Drops what follows from other defects: where hexes come twice or nodes hang, faces have too many hexes, and links are
+/// odd.
+fn keep_causes(defects: &mut Vec<Defect>) {
+    let (mut twice, mut cause) = (false, false);
+    for defect in defects.iter() {
+        twice |= matches!(defect, Defect::SameHexes { .. });
+        cause |= matches!(
+            defect,
+            Defect::HexRepeatedNode { .. } | Defect::HangingNode { .. } | Defect::HangingNodeInFace { .. }
+        );
+    }
+    defects.retain(|defect| match defect {
+        Defect::OddLink { .. } | Defect::NonManifoldRim { .. } => !(twice || cause),
+        Defect::NonManifoldFace { .. } | Defect::FaceDisagreement { .. } => !twice,
+        _ => true,
+    });
+}
+
+/// How many nodes stand exactly where earlier ones do: what is not welded there is no neighbour.
+pub(super) fn coincident_nodes(positions: &[Point]) -> usize {
+    // Adding 0 makes -0 the same as 0.
+    let mut places: Vec<[u64; 3]> =
+        positions.iter().map(|p| (*p + Point::ZERO).to_array().map(f64::to_bits)).collect();
+    parallel::sort(&mut places);
+    places.windows(2).filter(|pair| pair[0] == pair[1]).count()
 }
 
 fn drop_unused_nodes(mesh: &mut HexMesh) {

@@ -155,7 +155,8 @@ pub enum HexRefineError {
     Inverted(#[from] InvertedHexes),
     /// Some hexes of the input are flat, or inside out between their corners.
     #[error(
-        "{} hexes are flat or inside out somewhere within: {}; mend the mesh, for example by smoothing it",
+        "{} hexes are flat or inside out somewhere within: {} (counted from 0, in the file's order); move their nodes, \
+         for example by smoothing the mesh",
         .0.len(), listed(.0)
     )]
     NotPositive(Vec<HexId>),

@@ -43,6 +43,8 @@ pub(super) struct Decided {
     pub(super) base: usize,
     /// The regions that overlap no part of the input, by their places among the options'.
     pub(super) idle_regions: Vec<u32>,
+    /// Nodes of the input that stand exactly where earlier ones do.
+    pub(super) coincident_nodes: usize,
 }
 
 /// What a plan was given more to refine.
@@ -104,6 +106,12 @@ impl<'a> HexPlan<'a> {
     /// The regions that overlap no part of the input, by their places among the options'. They refine nothing.
     pub fn idle_regions(&self) -> &[u32] {
         &self.decided.idle_regions
+    }
+
+    /// Nodes of the input that stand exactly where earlier ones do. Hexes there that do not share nodes are no neighbours:
+    /// their levels do not follow each other's, and smoothing may part them.
+    pub fn coincident_nodes(&self) -> usize {
+        self.decided.coincident_nodes
     }
 
     /// How large the mesh will be, and what its transitions will take.

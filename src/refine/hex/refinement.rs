@@ -1,6 +1,6 @@
 //! What is to be refined, decided level by level, by the options and by a caller's size function.
 
-use super::input::oriented;
+use super::input::{coincident_nodes, oriented};
 use super::options::{HexOptions, HexRefineError, Method, RefinedHexes, check_size, validate};
 use super::plan::{Decided, HexPlan};
 use super::trees::Trees;
@@ -139,7 +139,9 @@ impl<'a> HexRefinement<'a> {
             let corners = input.hexes[h].map(|n| input.positions[n.index()]);
             [SizedElement { corners, longest: longest_edge(&corners), level: 0, root: None }]
         })?;
-        HexPlan::closed(options, input, trees, Decided { capped, turned, base, idle_regions }, monitor)
+        let coincident_nodes = coincident_nodes(&input.positions);
+        let decided = Decided { capped, turned, base, idle_regions, coincident_nodes };
+        HexPlan::closed(options, input, trees, decided, monitor)
     }
 
     /// Makes the mesh.

@@ -57,6 +57,22 @@ fn hexes_that_were_turned_are_told() {
 }
 
 #[test]
+fn nodes_that_are_not_welded_are_told() {
+    let cube =
+        |x: u32| format!("{x} 0 0\n{0} 0 0\n{0} 1 0\n{x} 1 0\n{x} 0 1\n{0} 0 1\n{0} 1 1\n{x} 1 1\n", x + 1);
+    let cells = "CELLS 2 18\n8 0 1 2 3 4 5 6 7\n8 8 9 10 11 12 13 14 15\nCELL_TYPES 2\n12\n12\n";
+    let mesh = format!(
+        "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 16 double\n{}{}{cells}",
+        cube(0),
+        cube(1)
+    );
+    let folder = folder_holding("two.vtk", &mesh);
+    let run = hexmill(&folder, &["refine", "two.vtk", "-o", "fine.vtu", "--levels", "1"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stderr.contains("warning: 4 nodes stand exactly where others do; "), "{}", run.stderr);
+}
+
+#[test]
 fn growth_is_refused_if_that_is_wanted() {
     let folder = folder_with_grid();
     let regions = ["--region", "box:1,1,1,2,2,2:level=2", "--region", "box:2,2,1,3,3,2:level=2"];

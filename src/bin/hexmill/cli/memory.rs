@@ -43,15 +43,32 @@ impl Limit {
     }
 }
 
-/// Bytes that programs can still have, with what can be swapped, where the system tells: Linux's `/proc/meminfo` and,
-/// within a container, the limit of its group (<https://docs.kernel.org/admin-guide/cgroup-v2.html>).
+/// Bytes that programs can still have, with what can be swapped, where the system tells: Linux's `/proc/meminfo`, within a
+/// container the limit of its group (<https://docs.kernel.org/admin-guide/cgroup-v2.html>), and the limit of the process's
+/// address space (`ulimit -v`).
 fn free_memory() -> Option<u64> {
     let of_system = free_in(&read_to_string("/proc/meminfo").ok()?)?;
     let number =
         |file: &str| read_to_string(format!("/sys/fs/cgroup/memory.{file}")).ok()?.trim().parse().ok();
     let of_group =
         number("max").zip(number("current")).map(|(most, now): (u64, u64)| most.saturating_sub(now));
-    Some(of_group.map_or(of_system, |of_group| of_system.min(of_group)))
+    let of_process = read_to_string("/proc/self/limits").ok().as_deref().and_then(address_space);
+    let of_process = of_process.map(|most| most.saturating_sub(held().unwrap_or(0)));
+    Some([of_group, of_process].into_iter().flatten().fold(of_system, u64::min))
+}
+
+/// Bytes of this process's address space that are in use.
+fn held() -> Option<u64> {
+    let size = read_to_string("/proc/self/status").ok()?;
+    let line = size.lines().find_map(|line| line.strip_prefix("VmSize:"))?;
+    Some(1024 * line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?)
+}
+
+/// The limit of a process's address space in bytes, if there is one.
+fn address_space(limits: &str) -> Option<u64> {
+    let soft =
+        limits.lines().find_map(|line| line.strip_prefix("Max address space"))?.split_whitespace().next();
+    soft?.parse().ok()
 }
 
 fn free_in(meminfo: &str) -> Option<u64> {
@@ -72,6 +89,9 @@ mod tests {
         assert_eq!(free_in(told), Some(2500 * 1024));
         assert_eq!(free_in("MemTotal: 5 kB\n"), None);
         assert_eq!(free_in("MemAvailable: five kB\n"), None);
+        let limits = "Limit Soft Hard Units\nMax data size unlimited unlimited bytes\nMax address space 700 unlimited bytes\n";
+        assert_eq!(address_space(limits), Some(700));
+        assert_eq!(address_space(&limits.replace("700", "unlimited")), None);
     }
 
     #[test]

@@ -127,6 +127,13 @@ fn plan_in_words(plan: &HexPlan) -> String {
     )];
     let told = reasons.iter().filter(|(count, _)| *count > 0);
     lines.extend(told.map(|(count, why)| format!("  {count} elements are refined {why}")));
+    let coincident = plan.coincident_nodes();
+    if coincident > 0 {
+        lines.push(format!(
+            "warning: {coincident} nodes stand exactly where others do; hexes that do not share them are no neighbours: weld \
+             them if they are to be"
+        ));
+    }
     lines.join("\n") + "\n"
 }
 
