@@ -10,8 +10,8 @@ use crate::mesh::topology::Side;
 pub(super) struct Matched {
     /// Those that are boundary faces: the side that each is, ascending, and which cell of the file.
     pub sides: Vec<(Side, u32)>,
-    /// How many are none.
-    pub others: usize,
+    /// The cells of the file that are none.
+    pub others: Vec<u32>,
 }
 
 /// Which sides of the hexes have a set of nodes.
@@ -47,11 +47,11 @@ pub(super) fn match_faces<'a>(
             }
         }
     }
-    let (mut matched, mut others) = (Vec::new(), 0);
+    let (mut matched, mut others) = (Vec::new(), Vec::new());
     for (face, cell) in faces {
         match quad(face).map(|nodes| sides[&nodes]) {
             Some(Sides { first, count: 1 }) => matched.push((first, cell)),
-            _ => others += 1,
+            _ => others.push(cell),
         }
     }
     matched.sort_unstable();

@@ -29,6 +29,8 @@ pub(super) struct CellCollector {
     features: Features,
     /// Faces of hexes that the file names and does not have.
     dropped_faces: usize,
+    /// Names that hexes have no place for.
+    dropped_groups: Vec<String>,
 }
 
 /// What a file says of its cells: nothing, or one entry for each cell of any kind, in the file's order.
@@ -57,6 +59,7 @@ impl CellCollector {
             hex_source: Vec::new(),
             features: Features::default(),
             dropped_faces: 0,
+            dropped_groups: Vec::new(),
         }
     }
 
@@ -93,6 +96,11 @@ impl CellCollector {
     /// Counts faces that the file names and does not have.
     pub fn drop_faces(&mut self, count: usize) {
         self.dropped_faces += count;
+    }
+
+    /// Names groups that a file of hexes has and that are left out.
+    pub fn drop_groups(&mut self, names: impl IntoIterator<Item = String>) {
+        self.dropped_groups.extend(names);
     }
 
     /// The error about a cell that is not read; `named` says what it is.
@@ -172,20 +180,23 @@ impl CellCollector {
             let mesh = PolygonMesh { positions, offsets, corners, features, ..PolygonMesh::default() };
             return Ok(Document { tags, level, parent, ..Document::from(mesh) });
         }
-        let (groups, dropped_faces) = self.groups(&mut cell_tags)?;
+        let (groups, others) = self.groups(&mut cell_tags)?;
+        let dropped_faces = others.len() + self.dropped_faces;
+        let mut dropped_groups = cell_tags.names_of(&others);
+        dropped_groups.extend(self.dropped_groups);
         let mesh = HexMesh { positions, hexes: self.hexes, groups, ..HexMesh::default() };
-        Ok(Document { tags, level, parent, dropped_faces, ..Document::from(mesh) })
+        Ok(Document { tags, level, parent, dropped_faces, dropped_groups, ..Document::from(mesh) })
     }
 
-    /// The groups of boundary faces, and how many faces are none of the boundary.
-    fn groups(&self, tags: &mut CellTags) -> Result<(BoundaryGroups, usize), ReadError> {
+    /// The groups of boundary faces, and the cells that are faces and none of the boundary.
+    fn groups(&self, tags: &mut CellTags) -> Result<(BoundaryGroups, Vec<u32>), ReadError> {
         if Side::try_from(6 * self.hexes.len()).is_err() {
             return Err(self.too_large());
         }
         let face = |ends: &[u32]| &self.corners[ends[0] as usize..ends[1] as usize];
         let faces = self.offsets.windows(2).map(face).zip(self.face_source.iter().copied());
         let matched = match_faces(&self.hexes, self.node_count, faces);
-        Ok((tags.of_sides(&matched.sides, self.format)?, matched.others + self.dropped_faces))
+        Ok((tags.of_sides(&matched.sides, self.format)?, matched.others))
     }
 }
 

@@ -59,6 +59,9 @@ pub struct Document {
     pub second_order: Option<SecondOrder>,
     /// Faces in a file of hexes that are no boundary faces of these, and were left out.
     pub dropped_faces: usize,
+    /// The groups in a file of hexes that were left out, all or in part: of such faces, of edges and of nodes. One without
+    /// a name is told by its number.
+    pub dropped_groups: Vec<String>,
 }
 
 impl Document {
@@ -69,7 +72,15 @@ impl Document {
             AnyMesh::Hexes(mesh) => std::mem::take(&mut mesh.tags),
             AnyMesh::Quads(_) => Tags::default(),
         };
-        Self { mesh, tags, level: Vec::new(), parent: Vec::new(), second_order: None, dropped_faces: 0 }
+        Self {
+            mesh,
+            tags,
+            level: Vec::new(),
+            parent: Vec::new(),
+            second_order: None,
+            dropped_faces: 0,
+            dropped_groups: Vec::new(),
+        }
     }
 
     /// The faces of the document as a surface with its tags, or `None` if it holds hexes.

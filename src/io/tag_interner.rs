@@ -111,6 +111,20 @@ impl CellTags {
         Ok(BoundaryGroups::new(sides, tags).expect("sides ascend, each with a set"))
     }
 
+    /// What the tags of the given cells are called, each once, in order of first use: their groups, or else their number.
+    pub fn names_of(&self, cells: &[u32]) -> Vec<String> {
+        let (mut is_told, mut known, mut names) = (vec![false; self.sets.len()], HashSet::new(), Vec::new());
+        for set in cells.iter().filter_map(|&cell| self.of_cell.get(cell as usize)) {
+            if std::mem::replace(&mut is_told[*set as usize], true) {
+                continue;
+            }
+            let set = &self.sets[*set as usize];
+            let number = set.number.filter(|_| set.groups.is_empty()).map(|number| number.to_string());
+            names.extend(set.groups.iter().cloned().chain(number).filter(|name| known.insert(name.clone())));
+        }
+        names
+    }
+
     /// Tags of elements with the given sets, which are renumbered in order of first use.
     fn in_order_of_use(&self, elements: impl Iterator<Item = Option<u32>>) -> Tags {
         let mut tags = Tags::default();

@@ -64,7 +64,8 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// The freedom of the nodes of a mesh by its boundary faces, each of which lies on the given patch.
+    /// The freedom of the nodes of a mesh by its boundary faces and those between materials, each of which lies on the
+    /// given patch.
     pub fn of_boundary(boundary: &QuadMesh, patch: &[u32], surface: &'a BoundarySurface) -> Self {
         let mut freedom = vec![Freedom::Inside; boundary.node_count()];
         for (quad, &patch) in boundary.quads.iter().zip(patch) {
@@ -81,6 +82,19 @@ impl<'a> Constraints<'a> {
                 }
                 _ => Freedom::Fixed,
             };
+        }
+        for (quad, &patch) in boundary.quads.iter().zip(patch) {
+            for n in quad {
+                let freedom = &mut freedom[n.index()];
+                let leaves = match *freedom {
+                    Freedom::Patch(other) => other != patch,
+                    Freedom::Curve(curve) => !surface.is_at_curve(patch, curve),
+                    Freedom::Inside | Freedom::Fixed => false,
+                };
+                if leaves {
+                    *freedom = Freedom::Fixed;
+                }
+            }
         }
         Self { surface: Some(surface), is_bounded: false, freedom }
     }
@@ -154,7 +168,7 @@ fn curve_ends(
                 }
                 curve
             }
-            _ => None,
+            ref faces => surface.curve_among(faces.iter().map(|&k| patch[boundary.face_of(k as usize)])),
         };
         ends[nodes[0].index()].push((curve, b));
         ends[nodes[1].index()].push((curve, a));

@@ -3,7 +3,7 @@
 //! The energy is a sum of powers over the corners of the cells (see `energy`), regularised so that it is finite for
 //! inverted ones, and lowered node by node with Newton steps:
 //!
-//! 1. `constraint`: boundary nodes slide on the input's boundary surface, along its curves, or stay;
+//! 1. `constraint`: nodes of the boundary and between materials slide on the input's surfaces, along their curves, or stay;
 //! 2. `problem`: the cells around the movable nodes, and nodes coloured so that those of one colour share no cell;
 //! 3. `untangle`: cells that are not positive are pushed open by a regularised energy;
 //! 4. `smooth`: shape first, then more and more the worst corners alone.
@@ -34,9 +34,10 @@ pub(crate) use symmetric::Symmetric;
 pub(crate) use untangle::untangle;
 
 pub use constraint::{Constraints, Freedom};
-pub use surface::BoundarySurface;
+pub use surface::{BoundarySurface, FaceKind};
 
 use crate::geometry::Point;
+use crate::mesh::quality::{Certainty, is_positive};
 use crate::mesh::{HexId, NodeId};
 use crate::parallel;
 use crate::{Cancelled, Monitor, Stage};
@@ -76,7 +77,7 @@ pub struct OptimizeReport {
     pub moved: usize,
     /// The greatest distance of a movable boundary node from where its freedom lets it be.
     pub off_boundary: f64,
-    /// Cells that are not certainly positive, ascending.
+    /// All hexes that are not certainly positive, whether their nodes can move or not, ascending.
     pub inverted: Vec<HexId>,
     /// Rounds over nodes that were made.
     pub sweeps: usize,
@@ -126,6 +127,15 @@ pub fn optimize(
         problem.points.clone_from(&problem.anchors);
         after = before.clone();
     }
+    let mut inverted = after.inverted(&problem);
+    // Hexes of which no node moves are none of the problem.
+    let is_doubtful = |hex: &[NodeId; 8]| {
+        !hex.iter().any(|&n| moves(n))
+            && is_positive(&hex.map(|n| positions[n.index()])) != Certainty::Positive
+    };
+    let rigid = parallel::try_filter(hexes.len(), monitor, |h| is_doubtful(&hexes[h]))?;
+    inverted.extend(rigid.into_iter().map(HexId));
+    inverted.sort_unstable();
     let moved = problem.write_back(positions);
     Ok(OptimizeReport {
         cells: problem.cells.len(),
@@ -137,7 +147,7 @@ pub fn optimize(
         off_boundary: parallel::greatest(problem.movable(), |i| {
             constraints.distance(problem.nodes[i], problem.points[i])
         }),
-        inverted: after.inverted(&problem),
+        inverted,
         sweeps,
     })
 }

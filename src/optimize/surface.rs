@@ -1,7 +1,9 @@
-//! The boundary surface on which boundary nodes are kept: patches that meet at curves.
+//! The surface on which nodes are kept: patches that meet at curves. It is the boundary of a mesh, and what lies between
+//! the materials in it.
 //!
-//! 1. Faces that meet at less than the ridge angle and have the same label belong to one patch.
-//! 2. The other edges are curves, one for each pair of patches (a patch with itself at a crease that ends inside it).
+//! 1. Faces that meet at less than the ridge angle and are of the same kind belong to one patch.
+//! 2. The other edges are curves, one for each pair of patches (a patch with itself at a crease that ends inside it), or
+//!    for each set of patches where materials meet.
 //! 3. A patch whose normals all agree is a plane, a curve whose edges all agree is straight: there nothing is looked
 //!    up, and nodes stay to the last bits. On the others a node goes to the nearest point.
 
@@ -18,15 +20,48 @@ const SAME: f64 = 1e-9;
 /// Edges between two questions whether to stop.
 const SILENT: usize = 1 << 16;
 
+/// What a face of the surface parts, and the group that it is in. Patches end where this changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FaceKind {
+    /// The number of its group.
+    pub group: u32,
+    /// The materials on its two sides, ascending; the second is [`FaceKind::OUTSIDE`] on the boundary.
+    pub materials: [u32; 2],
+}
+
+impl FaceKind {
+    /// What is beyond the boundary.
+    pub const OUTSIDE: u32 = u32::MAX;
+
+    /// A boundary face of a material.
+    pub fn boundary(group: u32, material: u32) -> Self {
+        Self { group, materials: [material, Self::OUTSIDE] }
+    }
+
+    /// A face between two materials, in no group; none if they are one.
+    pub fn between(a: u32, b: u32) -> Option<Self> {
+        (a != b).then_some(Self { group: u32::MAX, materials: [a.min(b), a.max(b)] })
+    }
+
+    /// Is it between two materials?
+    pub fn is_inner(&self) -> bool {
+        self.materials[1] != Self::OUTSIDE
+    }
+}
+
 /// A surface in patches and curves.
 #[derive(Debug, Default)]
 pub struct BoundarySurface {
     patches: Vec<Piece>,
     curves: Vec<Piece>,
-    /// The patches with each label, ascending.
-    patches_with: BTreeMap<u32, Vec<u32>>,
+    /// The patches of each kind, ascending.
+    patches_of: BTreeMap<FaceKind, Vec<u32>>,
     /// The curve between two patches, the lesser first.
     curve_between: BTreeMap<[u32; 2], u32>,
+    /// The curve where materials meet, by the patches there, ascending.
+    curve_among: BTreeMap<Vec<u32>, u32>,
+    /// The patches that end at each curve.
+    ends_at: Vec<Vec<u32>>,
     /// All triangles, and the patch of each.
     triangles: Option<(NearestTriangle, Vec<u32>)>,
 }
@@ -69,17 +104,18 @@ impl BoundarySurface {
     /// Patches of a surface; edges at which faces meet at more than `ridge_degrees` are curves, as are edges of any
     /// other number of faces than two. Node ids are in range, positions finite.
     pub fn new(surface: &impl Faces, ridge_degrees: f64) -> Self {
-        Self::of_groups(surface, ridge_degrees, |_| 0, &Silent).expect("nobody stops it")
+        let kind = |_| FaceKind::boundary(0, 0);
+        Self::of_kinds(surface, ridge_degrees, kind, &Silent).expect("nobody stops it")
     }
 
-    /// The same, with curves also between faces of different groups, which `label` tells.
+    /// The same, with curves also between faces of different kinds.
     ///
     /// # Errors
     /// If the monitor stops it.
-    pub fn of_groups(
+    pub fn of_kinds(
         surface: &impl Faces,
         ridge_degrees: f64,
-        label: impl Fn(usize) -> u32,
+        kind: impl Fn(usize) -> FaceKind,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let edges = Edges::monitored(surface, monitor)?;
@@ -95,8 +131,7 @@ impl BoundarySurface {
             let faces: Vec<usize> = faces_at(e).collect();
             let &[f, g] = faces.as_slice() else { return false };
             let cosine = normals[f].dot(normals[g]);
-            label(f) == label(g)
-                && (if disagrees(surface, &uses, e) { -cosine } else { cosine }) > ridge_cosine
+            kind(f) == kind(g) && (if disagrees(surface, &uses, e) { -cosine } else { cosine }) > ridge_cosine
         };
         let mut sets = Sets::new(surface.face_count());
         let mut ridges = Vec::new();
@@ -116,9 +151,9 @@ impl BoundarySurface {
         let (triangles, patch_of_triangle) = triangles(surface, &patch_of_face);
         monitor.proceed()?;
         let patch_count = patch_of_face.iter().max().map_or(0, |&p| p as usize + 1);
-        let mut patches_with: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        let mut patches_of: BTreeMap<FaceKind, Vec<u32>> = BTreeMap::new();
         for (f, &patch) in patch_of_face.iter().enumerate() {
-            let patches = patches_with.entry(label(f)).or_default();
+            let patches = patches_of.entry(kind(f)).or_default();
             if patches.last().is_none_or(|&last| last < patch) {
                 patches.push(patch);
             }
@@ -128,19 +163,28 @@ impl BoundarySurface {
             by_patch[patch as usize].push(*triangle);
         }
         let mut by_pair: BTreeMap<[u32; 2], Vec<[Point; 3]>> = BTreeMap::new();
+        let mut by_set: BTreeMap<Vec<u32>, Vec<[Point; 3]>> = BTreeMap::new();
         for e in ridges {
             let [a, b] = edges.ends[e.index()].map(|n| positions[n.index()]);
-            by_pair.entry(pair(faces_at(e).map(|f| patch_of_face[f]))).or_default().push([a, b, b]);
+            let patches = || faces_at(e).map(|f| patch_of_face[f]);
+            let of_curve = if uses.at(e).len() > 2 && faces_at(e).any(|f| kind(f).is_inner()) {
+                by_set.entry(ascending(patches())).or_default()
+            } else {
+                by_pair.entry(pair(patches())).or_default()
+            };
+            of_curve.push([a, b, b]);
         }
-        let curve_between = by_pair.keys().copied().zip(0..).collect();
+        let curve_between: BTreeMap<[u32; 2], u32> = by_pair.keys().copied().zip(0..).collect();
+        let curve_among = by_set.keys().cloned().zip(curve_between.len() as u32..).collect();
+        let ends_at = by_pair.keys().map(|pair| pair.to_vec()).chain(by_set.keys().cloned()).collect();
         let along = |t: &[Point; 3]| (t[1] - t[0]).normalize_or_zero();
         let told = |piece| monitor.proceed().map(|()| piece);
         let patches = by_patch.into_iter().map(|t| told(Piece::new(t, unit_normal)));
         let patches = patches.collect::<Result<Vec<Piece>, _>>()?;
-        let curves = by_pair.into_values().map(|t| told(Piece::new(t, along)));
+        let curves = by_pair.into_values().chain(by_set.into_values()).map(|t| told(Piece::new(t, along)));
         let curves = curves.collect::<Result<Vec<Piece>, _>>()?;
         let triangles = Some((NearestTriangle::new(triangles), patch_of_triangle));
-        Ok(Self { patches, curves, patches_with, curve_between, triangles })
+        Ok(Self { patches, curves, patches_of, curve_between, curve_among, ends_at, triangles })
     }
 
     /// The patch nearest to `p`; `None` if the surface has no faces.
@@ -149,18 +193,28 @@ impl BoundarySurface {
         Some(patch[nearest.nearest(p)?.triangle])
     }
 
-    /// The patch nearest to `p` of those with a label; `None` if there is none.
-    pub fn patch_with(&self, label: u32, p: Point) -> Option<u32> {
-        if self.patches_with.len() == 1 {
+    /// The patch nearest to `p` of those of a kind; `None` if there is none.
+    pub fn patch_of(&self, kind: FaceKind, p: Point) -> Option<u32> {
+        if self.patches_of.len() == 1 {
             return self.patch_at(p);
         }
-        let patches = self.patches_with.get(&label)?.iter().copied();
+        let patches = self.patches_of.get(&kind)?.iter().copied();
         patches.min_by(|&a, &b| self.distance_to_patch(a, p).total_cmp(&self.distance_to_patch(b, p)))
     }
 
     /// The curve between two patches, or within one.
     pub(super) fn curve_between(&self, patches: [u32; 2]) -> Option<u32> {
         self.curve_between.get(&pair(patches.into_iter())).copied()
+    }
+
+    /// The curve where materials meet and these patches are all that meet.
+    pub(super) fn curve_among(&self, patches: impl Iterator<Item = u32>) -> Option<u32> {
+        self.curve_among.get(&ascending(patches)).copied()
+    }
+
+    /// Does a patch end at a curve?
+    pub(super) fn is_at_curve(&self, patch: u32, curve: u32) -> bool {
+        self.ends_at[curve as usize].contains(&patch)
     }
 
     /// The point of a curve nearest to `p`.
@@ -215,6 +269,14 @@ impl BoundarySurface {
 /// The least and the greatest of some patches.
 fn pair(patches: impl Iterator<Item = u32>) -> [u32; 2] {
     patches.fold([u32::MAX, 0], |[low, high], p| [low.min(p), high.max(p)])
+}
+
+/// Each of some patches once, ascending.
+fn ascending(patches: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut patches: Vec<u32> = patches.collect();
+    patches.sort_unstable();
+    patches.dedup();
+    patches
 }
 
 fn triangles(surface: &impl Faces, patch_of_face: &[u32]) -> (Vec<[Point; 3]>, Vec<u32>) {

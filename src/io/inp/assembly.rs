@@ -1,6 +1,6 @@
 //! Parts put together: instances with their places, and the mesh that they make.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
 use super::lines::{Keyword, Lines};
@@ -32,6 +32,9 @@ pub(super) struct Model {
     instances: Vec<Place>,
     instance_of_name: HashMap<String, usize>,
     surfaces: Vec<SurfaceLine>,
+    /// Names of sets of nodes, and the same in capitals.
+    node_sets: Vec<String>,
+    known_node_sets: HashSet<String>,
     current: usize,
     in_instance: bool,
 }
@@ -84,6 +87,8 @@ impl Model {
             instances: Vec::new(),
             instance_of_name: HashMap::new(),
             surfaces: Vec::new(),
+            node_sets: Vec::new(),
+            known_node_sets: HashSet::new(),
             current: 0,
             in_instance: false,
         }
@@ -142,6 +147,13 @@ impl Model {
         self.surfaces.extend(read_surface(keyword, lines, self.current));
     }
 
+    /// Keeps the name of a set of nodes, unless another program made the set for itself.
+    pub fn name_nodes(&mut self, keyword: &Keyword) {
+        let name = keyword.get("NSET").filter(|name| !name.is_empty() && keyword.get("INTERNAL").is_none());
+        let new = name.filter(|name| self.known_node_sets.insert(name.to_ascii_uppercase()));
+        self.node_sets.extend(new.map(str::to_owned));
+    }
+
     /// Ends an instance.
     pub fn end_instance(&mut self) {
         self.in_instance = false;
@@ -173,6 +185,8 @@ impl Model {
             collect_faces(part, surfaces.of(place.part, index), first, &mut collector, &mut tags)?;
         }
         collector.drop_faces(surfaces.lost);
+        drop(surfaces);
+        collector.drop_groups(self.node_sets);
         let attributes = CellAttributes { tags: Some(tags), ..CellAttributes::default() };
         collector.finish(positions, attributes)
     }
@@ -271,7 +285,7 @@ fn sets_of_elements(
     let mut combinations: Vec<(u32, u32)> = vec![(0, 0)];
     let mut of_element: Vec<u32> = vec![0; part.elements.len()];
     for (index, set) in (0..).zip(&part.sets) {
-        if set.instance.is_some() && set.instance != instance {
+        if set.is_internal || set.instance.is_some() && set.instance != instance {
             continue;
         }
         let mut grown: HashMap<u32, u32> = HashMap::new();

@@ -44,6 +44,8 @@ pub(super) struct ElementSet {
     /// The instance that the set is of; `None` if it is of the part.
     pub instance: Option<usize>,
     pub members: Vec<u32>,
+    /// Was it made by a program for itself, for a surface say?
+    pub is_internal: bool,
 }
 
 /// Members that the element sets may have together for each byte of the file. A few words can name many
@@ -157,6 +159,7 @@ impl Part {
         instance: Option<usize>,
     ) -> Result<(), ReadError> {
         let set = self.set(keyword.require("ELSET")?, instance);
+        self.sets[set].is_internal |= keyword.get("INTERNAL").is_some();
         let before = self.sets[set].members.len();
         let generate = keyword.get("GENERATE").is_some();
         while let Some(line) = lines.next_data() {
@@ -265,7 +268,12 @@ impl Part {
     /// The place of the set with this name in any case, which is added unless it is there.
     fn set(&mut self, name: &str, instance: Option<usize>) -> usize {
         *self.set_of_name.entry((instance, name.to_ascii_uppercase())).or_insert_with(|| {
-            self.sets.push(ElementSet { name: name.to_owned(), instance, members: Vec::new() });
+            self.sets.push(ElementSet {
+                name: name.to_owned(),
+                instance,
+                members: Vec::new(),
+                is_internal: false,
+            });
             self.sets.len() - 1
         })
     }

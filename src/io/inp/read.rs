@@ -32,7 +32,10 @@ fn read_keyword(keyword: &Keyword, lines: &mut Lines<'_>, model: &mut Model) -> 
                 format!("*{} reads another file — put that file's lines in its place", keyword.name);
             return Err(keyword.refuse(code::UNSUPPORTED_FEATURE, message));
         }
-        "NODE" => model.current(keyword)?.read_nodes(keyword, lines)?,
+        "NODE" => {
+            model.name_nodes(keyword);
+            model.current(keyword)?.read_nodes(keyword, lines)?;
+        }
         "ELEMENT" => model.current(keyword)?.read_elements(keyword, lines)?,
         "ELSET" => match keyword.get("INSTANCE") {
             Some(name) => {
@@ -43,6 +46,10 @@ fn read_keyword(keyword: &Keyword, lines: &mut Lines<'_>, model: &mut Model) -> 
         },
         "SURFACE" => {
             model.read_surface(keyword, lines);
+            return Ok(false);
+        }
+        "NSET" => {
+            model.name_nodes(keyword);
             return Ok(false);
         }
         "PART" => model.begin_part(keyword)?,

@@ -1,6 +1,6 @@
 //! Physical groups of an MSH file, and the tag sets that they make.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::UNTAGGED;
 use super::file::MshFile;
@@ -71,6 +71,20 @@ impl Groups {
             }
         }
         Ok(())
+    }
+
+    /// The groups of points and of curves, by their names or else their numbers.
+    pub fn below_surfaces(&self) -> Vec<String> {
+        let named = self.names.keys().copied();
+        let of_entities = self.of_entity.iter().map(|(&(dimension, _), groups)| (dimension, groups));
+        let of_elements = self.set_of_groups.keys().map(|(dimension, groups)| (*dimension, groups));
+        let used = of_entities.chain(of_elements);
+        let used =
+            used.flat_map(|(dimension, all)| all.iter().map(move |&g| (dimension, g.saturating_abs())));
+        let all: BTreeSet<(i64, i64)> =
+            named.chain(used).filter(|&(dimension, group)| dimension < 2 && group != 0).collect();
+        let name = |key: &(i64, i64)| self.names.get(key).cloned().unwrap_or_else(|| key.1.to_string());
+        all.iter().map(name).filter(|name| name != UNTAGGED).collect()
     }
 
     /// The tag set of the elements of an entity.

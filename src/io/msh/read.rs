@@ -41,6 +41,7 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
     }
     let mut collector = CellCollector::new(Format::Msh, nodes.positions.len(), 0);
     elements.collect(&nodes, &mut groups, &mut collector)?;
+    collector.drop_groups(groups.below_surfaces());
     let attributes = CellAttributes { tags: Some(groups.tags), ..CellAttributes::default() };
     collector.finish(nodes.positions, attributes)
 }

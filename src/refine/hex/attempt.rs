@@ -62,7 +62,7 @@ fn relax(
     surface: &BoundarySurface,
     monitor: &dyn Monitor,
 ) -> Result<Vec<HexId>, HexRefineError> {
-    let constraints = local.constraints(&stage.mesh.labels, surface, monitor)?;
+    let constraints = local.constraints(&stage.mesh, surface, monitor)?;
     let mut report = local.optimize(&constraints, monitor)?;
     if report.off_boundary > STRAYED * local.shortest_edge() {
         // A node has passed the end of its patch: it lies in the plane of that, but no more on the boundary.

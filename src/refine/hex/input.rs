@@ -1,15 +1,16 @@
 //! The input, checked and put right.
 
-use super::labels::{Label, NO_LABEL, label_of};
+use super::labels::{Label, label_of};
+use super::materials::materials_of;
 use super::options::HexRefineError;
 use super::shift::RIDGE_DEGREES;
 use crate::geometry::Point;
 use crate::mesh::check::{Defect, summary};
 use crate::mesh::quality::{Certainty, is_positive};
-use crate::mesh::topology::HexFaces;
+use crate::mesh::topology::{HexFaces, Side, hex_of};
 use crate::mesh::{FaceId, HexId, HexMesh, NodeId, QuadMesh, check_hexes_within, orient_hexes};
 use crate::monitor::batches;
-use crate::optimize::BoundarySurface;
+use crate::optimize::{BoundarySurface, FaceKind};
 use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// The stage that this file reports.
@@ -89,19 +90,27 @@ fn drop_unused_nodes(mesh: &mut HexMesh) {
     parallel::for_each_mut(&mut mesh.hexes, |_, hex| *hex = hex.map(|n| number[n.index()]));
 }
 
-/// The input's boundary, on which boundary nodes are kept, within the groups that they are in.
+/// The surfaces on which nodes are kept: the input's boundary, in its groups, and what lies between its materials.
 pub(super) fn boundary_surface(input: &HexMesh, monitor: &dyn Monitor) -> Result<BoundarySurface, Cancelled> {
     let faces = HexFaces::within(input.positions.len(), &input.hexes, monitor)?;
-    let (mut quads, mut label) = (Vec::new(), Vec::new());
+    let (mut quads, mut kinds) = (Vec::new(), Vec::new());
     let labels: Vec<Label> = input.groups.labels().collect();
+    let materials = materials_of(&input.tags);
+    let material = |side: Side| materials.get(hex_of(side).index()).copied().unwrap_or(0);
     for batch in batches(faces.nodes.len(), monitor) {
-        for f in batch?.map(FaceId::new).filter(|&f| faces.is_boundary(f)) {
-            quads.push(faces.nodes[f.index()]);
-            label.extend((!labels.is_empty()).then(|| label_of(&labels, faces.sides(f)[0])));
+        for f in batch?.map(FaceId::new) {
+            let kind = match *faces.sides(f) {
+                [side] => Some(FaceKind::boundary(label_of(&labels, side), material(side))),
+                [a, b] => FaceKind::between(material(a), material(b)),
+                _ => None,
+            };
+            if let Some(kind) = kind {
+                quads.push(faces.nodes[f.index()]);
+                kinds.push(kind);
+            }
         }
     }
     drop(faces);
     let surface = QuadMesh { positions: input.positions.clone(), quads };
-    let label = |f: usize| label.get(f).copied().unwrap_or(NO_LABEL);
-    BoundarySurface::of_groups(&surface, RIDGE_DEGREES, label, monitor)
+    BoundarySurface::of_kinds(&surface, RIDGE_DEGREES, |f| kinds[f], monitor)
 }

@@ -1,11 +1,14 @@
 //! The interface: where refined hexes and coarse ones meet.
 
 use super::blocks::in_blocks;
-use super::labels::Label;
+use super::labels::{Label, label_of};
 use super::skeleton::{Stars, one_way};
+use super::stage::StageMesh;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES_AT;
+use crate::mesh::topology::Side;
 use crate::monitor::batches;
+use crate::optimize::FaceKind;
 use crate::{Cancelled, Monitor, parallel};
 
 /// The nodes that refined and coarse hexes share, and the hexes there.
@@ -14,6 +17,12 @@ pub(super) struct Interface<'a> {
     pub(super) refined: &'a [bool],
     /// The labels of boundary faces.
     pub(super) labels: &'a [Label],
+    /// The input hex of each hex, and the material of each of these; empty if there is one material.
+    root: &'a [u32],
+    pub(super) materials: &'a [u32],
+    /// Of the faces between refined and coarse hexes of different materials those that the coarse side keeps: their
+    /// refined sides, ascending.
+    pub(super) kept_by_coarse: Vec<Side>,
     /// The nodes, ascending.
     pub(super) nodes: Vec<NodeId>,
     /// Place of each node of the mesh in `nodes`, or [`NONE`].
@@ -62,12 +71,46 @@ impl<'a> Interface<'a> {
         let at = |node: NodeId| if place[node.index()] == NONE { last } else { NodeId(place[node.index()]) };
         let stars = Stars::new(nodes.len() + 1, shell.len(), |k| hexes[shell[k] as usize].map(at));
         monitor.proceed()?;
-        Ok(Self { hexes, refined, labels: &[], nodes, place, shell, stars })
+        let (labels, root, materials): (&[Label], &[u32], &[u32]) = (&[], &[], &[]);
+        let kept_by_coarse = Vec::new();
+        Ok(Self { hexes, refined, labels, root, materials, kept_by_coarse, nodes, place, shell, stars })
     }
 
-    /// The interface with labels of boundary faces, by their sides.
-    pub(super) fn labelled(self, labels: &'a [Label]) -> Self {
-        Self { labels, ..self }
+    /// The interface with the labels of boundary faces and the materials of the mesh that its hexes are of.
+    pub(super) fn of_stage(self, mesh: &'a StageMesh) -> Self {
+        Self { labels: &mesh.labels, root: &mesh.root, materials: &mesh.materials, ..self }
+    }
+
+    /// The material of a hex.
+    pub(super) fn material(&self, hex: u32) -> u32 {
+        if self.materials.is_empty() { 0 } else { self.materials[self.root[hex as usize] as usize] }
+    }
+
+    /// What a face of a star is, if nodes are kept on it: it is on the boundary or between materials.
+    pub(super) fn kind(&self, star: &Star, face: &StarFace) -> Option<FaceKind> {
+        let (hex, side) = face.first;
+        let id = star.hexes[hex].0;
+        match face.second {
+            None => {
+                let label = label_of(self.labels, 6 * id + Side::from(side));
+                Some(FaceKind::boundary(label, self.material(id)))
+            }
+            Some(_) if self.materials.is_empty() => None,
+            Some((second, _)) => FaceKind::between(self.material(id), self.material(star.hexes[second].0)),
+        }
+    }
+
+    /// The hex, by its place in the star, that keeps such a face, and which of its faces it is.
+    pub(super) fn keeper(&self, star: &Star, face: &StarFace) -> (usize, u8) {
+        match face.second {
+            Some(second) if star.is_interface(face) => {
+                let (refined, coarse) =
+                    if star.is_refined(second.0) { (second, face.first) } else { (face.first, second) };
+                let side = 6 * star.hexes[refined.0].0 + Side::from(refined.1);
+                if self.kept_by_coarse.binary_search(&side).is_ok() { coarse } else { refined }
+            }
+            _ => face.first,
+        }
     }
 
     /// The place of a node of the mesh in `nodes`, if it is there.
@@ -109,6 +152,13 @@ pub(super) struct InterfaceFace {
     pub(super) coarse: u32,
     /// Which of its faces it is.
     pub(super) coarse_face: u8,
+}
+
+impl InterfaceFace {
+    /// The face as a side of the refined hex.
+    pub(super) fn refined_side(&self) -> Side {
+        6 * self.refined + Side::from(self.refined_face)
+    }
 }
 
 /// The hexes around a node and the faces between them. Its buffers serve one node after another.

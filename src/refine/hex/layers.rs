@@ -60,7 +60,7 @@ pub(super) fn layers(
                     (quarters.len() - 1, &mut quarter_labels)
                 }
                 Piece::Edge(divided) => {
-                    transitions.divided.push(Transition { from: hex, divided });
+                    transitions.divided.push(Transition { from: hex, within: hex, divided });
                     (transitions.divided.len() - 1, &mut transitions.labels)
                 }
             };
@@ -71,7 +71,11 @@ pub(super) fn layers(
     transitions.labels.extend(labels::after(transitions.divided.len(), quarter_labels));
     let placed =
         place_quarters(&quarters).ok_or_else(|| StageError::Forbidden(transitions.replaced.clone()))?;
-    let placed = quarters_from.into_iter().zip(placed).map(|(from, divided)| Transition { from, divided });
+    let placed = quarters_from.into_iter().zip(placed).map(|(from, divided)| Transition {
+        from,
+        within: from,
+        divided,
+    });
     transitions.divided.extend(placed);
     transitions.interface_faces = faces.len();
     Ok(transitions)

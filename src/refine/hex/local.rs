@@ -1,13 +1,13 @@
 //! The part of a mesh that smoothing a stage's transition looks at: the hexes around the nodes that may move. All work
 //! and memory for smoothing follows from it, not from the mesh.
 
-use super::labels::{Label, label_of};
+use super::labels::label_of;
 use super::stage::{StageMesh, StageResult};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
-use crate::mesh::topology::{HexFaces, hex_of};
+use crate::mesh::topology::{HexFaces, Side, hex_of};
 use crate::mesh::{FaceId, HexId, NodeId, QuadMesh};
-use crate::optimize::{BoundarySurface, Constraints, OptimizeOptions, OptimizeReport, optimize};
+use crate::optimize::{BoundarySurface, Constraints, FaceKind, OptimizeOptions, OptimizeReport, optimize};
 use crate::{Cancelled, Monitor, parallel};
 
 /// Some hexes of a mesh, over nodes of their own.
@@ -25,11 +25,11 @@ pub(super) struct Local {
 }
 
 impl Local {
-    /// The hexes at the nodes of a stage's layer, which may move.
+    /// The hexes at the nodes of a stage's layer, which may move, and those that came from the same hexes.
     pub(super) fn around(stage: &StageResult, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let mut moves = vec![false; stage.mesh.positions.len()];
         stage.layer_nodes.iter().for_each(|n| moves[n.index()] = true);
-        Self::of_movable(&stage.mesh, &moves, monitor)
+        Self::of_movable(stage, &moves, monitor)
     }
 
     /// The same, and all nodes up to `rings` of hexes away from those of `tangled` may move too.
@@ -48,12 +48,17 @@ impl Local {
             ring.iter().flat_map(|&h| hexes[h as usize]).for_each(|n| near[n.index()] = true);
         }
         stage.layer_nodes.iter().for_each(|n| near[n.index()] = true);
-        Self::of_movable(&stage.mesh, &near, monitor)
+        Self::of_movable(stage, &near, monitor)
     }
 
-    fn of_movable(mesh: &StageMesh, moves: &[bool], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+    fn of_movable(stage: &StageResult, moves: &[bool], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let StageResult { mesh, from, .. } = stage;
         let is_near = |h: usize| mesh.hexes[h].iter().any(|n| moves[n.index()]);
-        let hex_ids = parallel::try_filter(mesh.hexes.len(), monitor, is_near)?;
+        let near = parallel::try_filter(mesh.hexes.len(), monitor, is_near)?;
+        // All that is left of a hex which lost room to the layer is to be positive, and not at its nodes alone.
+        let mut has_near = vec![false; from.iter().max().map_or(0, |&most| most as usize + 1)];
+        near.iter().for_each(|&h| has_near[from[h as usize] as usize] = true);
+        let hex_ids = parallel::try_filter(mesh.hexes.len(), monitor, |h| has_near[from[h] as usize])?;
         let hex_ids: Vec<HexId> = hex_ids.into_iter().map(HexId).collect();
         let mut number = vec![NodeId(u32::MAX); mesh.positions.len()];
         hex_ids.iter().flat_map(|h| mesh.hexes[h.index()]).for_each(|n| number[n.index()] = NodeId(0));
@@ -72,27 +77,31 @@ impl Local {
         })
     }
 
-    /// Where the nodes may go; `labels` are those of the mesh's boundary faces. Only what is said of movable ones counts: a boundary face with such a node is known for
-    /// one, since all hexes there are at hand.
+    /// Where the nodes may go. Only what is said of movable ones counts: a boundary face with such a node is known for
+    /// one, and one between materials too, since all hexes there are at hand.
     pub(super) fn constraints<'a>(
         &self,
-        labels: &[Label],
+        mesh: &StageMesh,
         surface: &'a BoundarySurface,
         monitor: &dyn Monitor,
     ) -> Result<Constraints<'a>, Cancelled> {
         let faces = HexFaces::within(self.positions.len(), &self.hexes, monitor)?;
         let has_movable = |nodes: &[NodeId; 4]| nodes.iter().any(|n| self.movable[n.index()]);
-        let boundary = faces.ids().filter(|&f| faces.is_boundary(f) && has_movable(&faces.nodes[f.index()]));
-        let label = |f: FaceId| {
-            let side = faces.sides(f)[0];
-            label_of(labels, 6 * self.hex_ids[hex_of(side).index()].0 + side % 6)
+        let in_mesh = |side: Side| self.hex_ids[hex_of(side).index()];
+        let kind = |f: FaceId| match *faces.sides(f) {
+            [side] => {
+                let label = label_of(&mesh.labels, 6 * in_mesh(side).0 + side % 6);
+                Some(FaceKind::boundary(label, mesh.material(in_mesh(side))))
+            }
+            [a, b] => FaceKind::between(mesh.material(in_mesh(a)), mesh.material(in_mesh(b))),
+            _ => None,
         };
-        let (quads, labels): (Vec<[NodeId; 4]>, Vec<u32>) =
-            boundary.map(|f| (faces.nodes[f.index()], label(f))).unzip();
+        let movable = faces.ids().filter(|&f| has_movable(&faces.nodes[f.index()]));
+        let (quads, kinds): (Vec<[NodeId; 4]>, Vec<FaceKind>) =
+            movable.filter_map(|f| Some((faces.nodes[f.index()], kind(f)?))).unzip();
         drop(faces);
         let middle = |quad: &[NodeId; 4]| quad.iter().map(|n| self.positions[n.index()]).sum::<Point>() / 4.0;
-        let patch =
-            |k: usize| surface.patch_with(labels[k], middle(&quads[k])).expect("a label is of the boundary");
+        let patch = |k: usize| surface.patch_of(kinds[k], middle(&quads[k])).expect("faces keep their kinds");
         let patches = parallel::try_collect(quads.len(), monitor, patch)?;
         let boundary = QuadMesh { positions: self.positions.clone(), quads };
         Ok(Constraints::of_boundary(&boundary, &patches, surface))

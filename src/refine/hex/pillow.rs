@@ -10,15 +10,17 @@
 //! ```
 //!
 //! 1. Find the pinched edges and decide which side each joins (`pinch`).
-//! 2. Around each node of the interface find the regions (`regions`). One of them keeps the node, every other
+//! 2. Decide which side keeps the faces between materials (`materials`).
+//! 3. Around each node of the interface find the regions (`regions`). One of them keeps the node, every other
 //!    gets a copy, moved into the region (`shift`).
-//! 3. Give the hexes their copies, and make a hex at each face of the interface.
+//! 4. Give the hexes their copies, and make a hex at each face of the interface.
 //!
 //! **Departure from the paper.** It shifts each node by half its shortest edge along the mean normal of the faces,
 //! which inverts hexes at concave corners; here it is [`THICKNESS`] of the shortest edge, towards the region.
 
 use super::blocks::{BLOCK, offsets};
 use super::interface::{Interface, InterfaceFace, Star};
+use super::materials::kept_by_coarse;
 use super::pinch::{Pinches, add_coarse};
 use super::regions::Regions;
 use super::ridges::Ridges;
@@ -55,6 +57,9 @@ pub(super) struct LayerHex {
     pub(super) hex: [NodeId; 8],
     /// The face at which it stands.
     pub(super) face: InterfaceFace,
+    /// The hex in whose place it is: the coarse one, or the refined one where the coarse side keeps a face between
+    /// materials.
+    pub(super) within: u32,
 }
 
 /// The corners of a face of the refined hex, as corners 4 to 7 of the layer hex upon it.
@@ -69,7 +74,7 @@ pub(super) fn above(refined_face: u8) -> [u8; 4] {
 /// The coarse hexes that must be refined too where that is impossible, or if the monitor stops it.
 pub(super) fn pillow(
     positions: &[Point],
-    interface: &Interface,
+    interface: &mut Interface,
     monitor: &dyn Monitor,
 ) -> Result<Pillow, StageError> {
     monitor.checkpoint(PILLOW, 0.0)?;
@@ -79,6 +84,8 @@ pub(super) fn pillow(
         return Err(StageError::Conflict(more));
     }
     monitor.checkpoint(PILLOW, 0.4)?;
+    interface.kept_by_coarse = kept_by_coarse(interface, &pinches, monitor)?;
+    let interface = &*interface;
     let ridges = Ridges::new(positions, interface, &pinches, monitor)?;
     let copies = Copies::new(positions, interface, &pinches, &ridges, monitor)?;
     monitor.checkpoint(PILLOW, 0.8)?;
@@ -103,7 +110,9 @@ fn layer_hex(interface: &Interface, hexes: &[[NodeId; 8]], face: InterfaceFace) 
         hex[k] = hexes[coarse][there];
         hex[k + 4] = hexes[refined][usize::from(corner)];
     }
-    LayerHex { hex, face }
+    let is_kept_by_coarse = interface.kept_by_coarse.binary_search(&face.refined_side()).is_ok();
+    let within = if is_kept_by_coarse { face.refined } else { face.coarse };
+    LayerHex { hex, face, within }
 }
 
 /// The copies of the nodes of the interface.

@@ -8,7 +8,8 @@
 //!    [`MOST_RESTARTS`].
 //!
 //! **Promises.** The mesh conforms and is a manifold with boundary if the input is one; every hex has a positive
-//! Jacobian, at its corners and inside. Boundary nodes stay on the input's boundary faces, its ridges and its corners.
+//! Jacobian, at its corners and inside. Boundary nodes stay on the input's boundary faces, its ridges and its corners, and
+//! nodes between materials on the faces that are between these in the input.
 
 use std::sync::Mutex;
 

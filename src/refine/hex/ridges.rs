@@ -75,8 +75,8 @@ impl Ridges {
         let at = |buffers: &mut (Star, Regions, Shifts), place: usize, found: &mut Vec<AtNode>| {
             let (star, regions, shifts) = buffers;
             star.load(interface, place);
-            // Only nodes with boundary faces of both sides can lie on a ridge between them.
-            if star.faces.iter().filter(|face| face.second.is_none()).count() < 2 {
+            // Only nodes with faces to be kept of both sides can lie on a ridge between them.
+            if star.faces.iter().filter(|face| interface.kind(star, face).is_some()).count() < 2 {
                 return;
             }
             regions.load(interface, star, pinches, place);

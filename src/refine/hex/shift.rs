@@ -2,8 +2,11 @@
 //!
 //! A copy moves by [`THICKNESS`] of the node's shortest edge: towards the mean of the region's hexes within the
 //! domain, of its boundary faces on a smooth boundary, along the ridge on a ridge of the boundary, be it sharp or the
-//! border of a group of boundary faces. So copies stay on the boundary, and on its ridges. A region that owns two ridges at the node, or boundary faces on both
-//! sides of a ridge that is not its own, cannot move.
+//! border of a group of boundary faces. So copies stay on the boundary, and on its ridges. A region that owns two ridges
+//! at the node, or boundary faces on both sides of a ridge that is not its own, cannot move.
+//!
+//! Faces between materials are boundary faces in all of this: of the region that has the hexes on both sides, or, if
+//! these are of two, of the one that is to keep them (`materials`).
 //!
 //! One region keeps the node. In this order it is one
 //! 1. that the outside joins at a pinched edge,
@@ -15,12 +18,12 @@
 //! 7. of refined hexes.
 
 use super::interface::{Interface, Star, StarFace};
-use super::labels::label_of;
 use super::pillow::THICKNESS;
 use super::regions::Regions;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{FACES, NEIGHBOURS};
+use crate::optimize::FaceKind;
 
 /// Boundary faces that meet at more than this angle meet at a ridge, in degrees.
 pub(super) const RIDGE_DEGREES: f64 = 30.0;
@@ -48,19 +51,20 @@ pub(super) struct Shifts {
     pub(super) ridges: Vec<NodeId>,
 }
 
-/// A boundary face at the node.
+/// A boundary face at the node, or one between materials.
 struct Bound {
     region: u32,
+    /// Out of the lesser of its materials.
     normal: Point,
-    label: u32,
+    kind: FaceKind,
     center: Point,
     ends: [NodeId; 2],
 }
 
 impl Bound {
-    /// Is an edge between the two a ridge, because they meet at an angle or belong to different groups?
+    /// Is an edge between the two a ridge, because they meet at an angle or are of different kinds?
     fn has_ridge_to(&self, other: &Self) -> bool {
-        self.normal.dot(other.normal) < RIDGE || self.label != other.label
+        self.normal.dot(other.normal) < RIDGE || self.kind != other.kind
     }
 }
 
@@ -121,33 +125,40 @@ impl Shifts {
 
     fn find_bounds(&mut self, positions: &[Point], interface: &Interface, star: &Star, regions: &Regions) {
         self.bounds.clear();
-        for face in star.faces.iter().filter(|face| face.second.is_none()) {
-            let (hex, side) = face.first;
+        for face in &star.faces {
+            let Some(kind) = interface.kind(star, face) else { continue };
+            let (hex, side) = interface.keeper(star, face);
             let id = star.hexes[hex].0;
             let nodes = &interface.hexes[id as usize];
             let [a, b, c, d] = FACES[usize::from(side)].map(|k| positions[nodes[usize::from(k)].index()]);
+            let outward = (c - a).cross(d - b).normalize_or_zero();
             self.bounds.push(Bound {
-                label: label_of(interface.labels, 6 * id + u32::from(side)),
+                kind,
                 region: regions.of_hex[hex],
-                normal: (c - a).cross(d - b).normalize_or_zero(),
+                normal: if interface.material(id) == kind.materials[0] { outward } else { -outward },
                 center: ((a + c) + (b + d)) * 0.25,
                 ends: [face.rest[0], face.rest[2]],
             });
         }
     }
 
-    /// Which way a region that owns boundary faces moves, if it can; and whether it has a ridge of its own.
+    /// Which way a region that owns boundary faces moves, if it can; and whether it has a ridge of its own. It cannot move
+    /// where faces between materials that it owns go all around the node.
     fn along_boundary(&self, positions: &[Point], region: u32) -> (Option<Point>, bool) {
         let own = || self.bounds.iter().filter(move |bound| bound.region == region);
         let Some(first) = own().next() else { return (None, false) };
         if !own().any(|bound| bound.has_ridge_to(first)) {
+            let ends_twice = |end| own().filter(|bound| bound.ends.contains(&end)).count() == 2;
+            if first.kind.is_inner() && own().flat_map(|bound| bound.ends).all(ends_twice) {
+                return (None, false);
+            }
             let (sum, count) = own().fold((Point::ZERO, 0.0), |(s, n), bound| (s + bound.center, n + 1.0));
             return (Some(sum / count - self.at), false);
         }
         let mut ends = self.ridge_pairs().filter(|(a, b, _)| a.region == region && b.region == region);
         let Some((_, _, end)) = ends.next() else { return (None, false) };
         let direction = positions[end.index()] - self.at;
-        let is_alone = ends.next().is_none();
+        let is_alone = ends.all(|(.., other)| other == end);
         let unit = direction.normalize_or_zero();
         let can_move = is_alone && own().all(|bound| bound.normal.dot(unit).abs() < ALONG);
         (can_move.then_some(direction), true)

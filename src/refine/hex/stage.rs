@@ -8,13 +8,14 @@ use super::divide::Divided;
 use super::interface::Interface;
 use super::labels;
 use super::layers::layers;
+use super::materials::materials_of;
 use super::options::Method;
 use super::pillow::{LayerHex, Pillow, pillow};
 use super::quarters::{Quarter, place_quarters};
 use super::transition::{Transition, Transitions, assemble};
 use crate::geometry::Point;
 use crate::mesh::topology::Side;
-use crate::mesh::{HexMesh, NodeId};
+use crate::mesh::{HexId, HexMesh, NodeId};
 use crate::template::hex::{SPLIT, THIRDS, THIRTEEN, Template};
 use crate::{Cancelled, Monitor};
 
@@ -24,7 +25,7 @@ pub const NO_OCTANT: u8 = u8::MAX;
 /// No element of the forest: the hex is a transition hex.
 pub const NO_ELEMENT: u32 = u32::MAX;
 
-/// A conforming hex mesh between two stages. All arrays but `positions` and `labels` have one entry a hex.
+/// A conforming hex mesh between two stages. All arrays but `positions`, `labels` and `materials` have one entry a hex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StageMesh {
     /// Coordinates of the nodes.
@@ -45,6 +46,9 @@ pub struct StageMesh {
     pub element: Vec<u32>,
     /// Boundary faces that belong to a group, by side, ascending, each with the group's number.
     pub labels: Vec<(Side, u32)>,
+    /// The material of each input hex, by its set of tags; empty if all are of one. Faces between hexes of different
+    /// materials stay where they are, like the boundary.
+    pub materials: Vec<u32>,
 }
 
 impl StageMesh {
@@ -58,14 +62,21 @@ impl StageMesh {
             root: (0..count as u32).collect(),
             element: (0..count as u32).collect(),
             labels: Vec::new(),
+            materials: Vec::new(),
             hexes,
         }
     }
 
-    /// The same of a mesh with its groups of boundary faces.
+    /// The same of a mesh with its groups of boundary faces and its materials.
     pub(super) fn of_mesh(mesh: &HexMesh) -> Self {
         let labels = mesh.groups.labels().collect();
-        Self { labels, ..Self::of_input(mesh.positions.clone(), mesh.hexes.clone()) }
+        let materials = materials_of(&mesh.tags);
+        Self { labels, materials, ..Self::of_input(mesh.positions.clone(), mesh.hexes.clone()) }
+    }
+
+    /// The material of a hex.
+    pub(super) fn material(&self, hex: HexId) -> u32 {
+        self.materials.get(self.root[hex.index()] as usize).copied().unwrap_or(0)
     }
 }
 
@@ -140,8 +151,7 @@ pub fn stage(
     monitor: &dyn Monitor,
 ) -> Result<StageResult, StageError> {
     assert_eq!(refined.len(), mesh.hexes.len(), "one entry a hex");
-    let interface =
-        Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?.labelled(&mesh.labels);
+    let mut interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?.of_stage(mesh);
     match method {
         Method::One => {
             let mut positions = mesh.positions.clone();
@@ -157,19 +167,19 @@ pub fn stage(
             )?)
         }
         Method::Two => {
-            let pillow = pillow(&mesh.positions, &interface, monitor)?;
+            let pillow = pillow(&mesh.positions, &mut interface, monitor)?;
             let divided = quarters(&pillow, &mesh.octant).map_err(StageError::NotCouplable)?;
             drop(interface);
             pillowed_stage(mesh, refined, pillow, (&SPLIT, divided), monitor)
         }
         Method::Three => {
-            let pillow = pillow(&mesh.positions, &interface, monitor)?;
+            let pillow = pillow(&mesh.positions, &mut interface, monitor)?;
             let divided = thirteens(&pillow);
             drop(interface);
             pillowed_stage(mesh, refined, pillow, (&THIRDS, divided), monitor)
         }
         Method::Auto => {
-            let pillow = pillow(&mesh.positions, &interface, monitor)?;
+            let pillow = pillow(&mesh.positions, &mut interface, monitor)?;
             let templates = match quarters(&pillow, &mesh.octant) {
                 Ok(divided) => (&SPLIT, divided),
                 Err(_) => (&THIRDS, thirteens(&pillow)),
@@ -186,9 +196,8 @@ pub(super) fn can_be_joined(
     refined: &[bool],
     monitor: &dyn Monitor,
 ) -> Result<bool, Cancelled> {
-    let interface =
-        Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?.labelled(&mesh.labels);
-    match pillow(&mesh.positions, &interface, monitor) {
+    let mut interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?.of_stage(mesh);
+    match pillow(&mesh.positions, &mut interface, monitor) {
         Ok(pillow) => Ok(quarters(&pillow, &mesh.octant).is_ok()),
         Err(StageError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(false),
@@ -226,7 +235,11 @@ fn pillowed_stage(
     monitor: &dyn Monitor,
 ) -> Result<StageResult, StageError> {
     let Pillow { positions, hexes, layer, pinched_edges } = pillow;
-    let of_coarse = |(hex, divided): (&LayerHex, Divided)| Transition { from: hex.face.coarse, divided };
+    let of_coarse = |(hex, divided): (&LayerHex, Divided)| Transition {
+        from: hex.face.coarse,
+        within: hex.within,
+        divided,
+    };
     let transitions = Transitions {
         labels: labels::of_layer(&mesh.labels, &hexes, &layer, mesh.positions.len()),
         interface_faces: layer.len(),

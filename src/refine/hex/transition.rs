@@ -14,6 +14,8 @@ use crate::{Cancelled, Monitor};
 /// A transition hex that a template divides, and the coarse hex that it is part of.
 pub(super) struct Transition {
     pub(super) from: u32,
+    /// The hex in whose place it is: that, or the refined hex beside it.
+    pub(super) within: u32,
     pub(super) divided: Divided,
 }
 
@@ -101,12 +103,18 @@ pub(super) fn assemble(
         _ => NO_ELEMENT,
     };
     let level = |h: usize| before.level[from[h] as usize].saturating_add(is_child(h).into());
+    let mut root = parallel::try_collect(count, monitor, |h| before.root[from[h] as usize])?;
+    for (k, transition) in (divided_ids.len()..).zip(&layer) {
+        let cells = kept.len() + cells_of[k] as usize..kept.len() + cells_of[k + 1] as usize;
+        root[cells].fill(before.root[transition.within as usize]);
+    }
     let mesh = StageMesh {
         octant: parallel::try_collect(count, monitor, octant)?,
         level: parallel::try_collect(count, monitor, level)?,
-        root: parallel::try_collect(count, monitor, |h| before.root[from[h] as usize])?,
+        root,
         element: parallel::try_collect(count, monitor, element)?,
         labels,
+        materials: before.materials.clone(),
         positions,
         hexes: cells,
     };

@@ -97,7 +97,7 @@ fn msh_2_elements_in_several_groups_come_together() {
     let hex = |h: usize| mesh.hexes[h].map(|n| (n.0 + 1).to_string()).join(" ");
     let quad = |s: u32| side(&mesh.hexes, s, " ");
     let text = format!(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 7 \"inlet\"\n2 8 \"all\"\n$EndPhysicalNames\n\
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n2 7 \"inlet\"\n2 8 \"all\"\n0 3 \"tip\"\n1 4 \"axis\"\n$EndPhysicalNames\n\
          $Nodes\n27\n{}$EndNodes\n$Elements\n8\n1 3 2 7 1 {}\n2 3 2 8 1 {}\n3 3 2 8 2 {}\n4 3 2 9 2 {}\n5 3 2 8 2 1 2 5 9\n\
          6 2 2 8 2 1 2 4\n7 5 2 1 1 {}\n8 5 2 1 1 {}\n$EndElements\n",
         nodes(" ", ""),
@@ -111,8 +111,9 @@ fn msh_2_elements_in_several_groups_come_together() {
     let document = read(text.as_bytes(), Format::Msh).unwrap();
     let both = TagSet { groups: vec!["inlet".into(), "all".into()], number: Some(7), ..TagSet::default() };
     assert_eq!(groups_of(hexes(&document), Format::Msh), [(5, both), (9, named("all", 8))]);
-    // The face between the hexes, the quad that is none of their faces, and the triangle.
+    // The face between the hexes, the quad that is none of their faces, and the triangle; no points nor curves.
     assert_eq!(document.dropped_faces, 3);
+    assert_eq!(document.dropped_groups, ["9", "all", "tip", "axis"]);
     assert_eq!(document.tags.of(1).unwrap().number, Some(1));
 }
 
@@ -128,13 +129,15 @@ fn inp_surfaces_and_shells_are_groups() {
         side(&mesh.hexes, 9, ", ")
     );
     let surfaces = "*SURFACE, NAME=bottom, TYPE=ELEMENT\nsolid, S1\n*SURFACE, NAME=left\n1, S6\n2, S6\n99, S1\n\
-                    *SURFACE, NAME=points, TYPE=NODE\n1\n*SURFACE, NAME=shell\nskin, SPOS\n";
+                    *SURFACE, NAME=points, TYPE=NODE\n1\n*SURFACE, NAME=shell\nskin, SPOS\n\
+                    *NSET, NSET=fixed\n1, 2\n*NSET, NSET=FIXED\n3\n*NSET, NSET=_picked, INTERNAL\n1\n";
     let of = |name: &str| TagSet { groups: vec![name.into()], ..TagSet::default() };
     let expected = [(0, of("bottom")), (5, of("left")), (6, of("bottom")), (9, of("skin"))];
     let document = read(format!("{part}{surfaces}").as_bytes(), Format::Inp).unwrap();
     assert_eq!(groups_of(hexes(&document), Format::Inp), expected);
     // The face between the hexes, and an element that is not there.
     assert_eq!(document.dropped_faces, 2);
+    assert_eq!(document.dropped_groups, ["left", "fixed"]);
 
     // As Abaqus/CAE writes them: sets of instances in the assembly.
     let assembly = format!(

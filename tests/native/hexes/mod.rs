@@ -7,6 +7,7 @@ mod groups;
 mod growth;
 mod judge;
 mod levels;
+mod materials;
 pub(crate) mod meshes;
 mod octants;
 mod pipeline;

@@ -106,13 +106,20 @@ impl Loaded {
         std::mem::replace(&mut self.document, Document::from(PolygonMesh::default()))
     }
 
-    /// Warns of faces in a file of hexes that could not be kept.
+    /// Warns of faces and groups in a file of hexes that could not be kept.
     pub(crate) fn warn_of_dropped_faces(&self, quiet: bool) {
-        let count = self.document.dropped_faces;
-        if count > 0 && !quiet {
+        let Document { dropped_faces: count, dropped_groups: groups, .. } = &self.document;
+        let path = self.path.display();
+        if *count > 0 && !quiet {
             tell(&format!(
-                "warning: {}: {count} faces beside the hexes are left out: they are no boundary faces of these\n",
-                self.path.display()
+                "warning: {path}: {count} faces beside the hexes are left out: they are no boundary faces of these\n",
+            ));
+        }
+        if !groups.is_empty() && !quiet {
+            tell(&format!(
+                "warning: {path}: these groups are not of hexes and boundary faces alone, and what else is in them is left \
+                 out: {}\n",
+                groups.join(", ")
             ));
         }
     }
