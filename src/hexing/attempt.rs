@@ -6,7 +6,7 @@ use super::correspondence::{Correspondence, Reduction, correspond};
 use super::fit::{FitOptions, fit};
 use super::ground::{Plan, Site};
 use super::merit::Bar;
-use super::misses::{FineCells, boundary_triangles, misses, too_far};
+use super::misses::{FineCells, boundary_triangles, misses, tolerance, too_far};
 use super::options::HexingError;
 use super::report::{AttemptReport, FeatureReport, FitCounts, MeshedReport, SheetCounts};
 use super::separate::separate;
@@ -84,8 +84,8 @@ pub(super) fn attempt(
         mean: fitted.mean,
         distance: distances(&mesh, solid, monitor)?,
     });
-    let far = options.max_distance.map(|limit| too_far(&mesh, solid, limit, monitor)).transpose()?;
-    let failures = misses(site, &cut, &on.reduction, far.unwrap_or_default(), &cells);
+    let far = too_far(&mesh, solid, tolerance(options), monitor)?;
+    let failures = misses(site, &cut, &on.reduction, far, &cells);
     let Correspondence { faces, edges, reduction, .. } = on;
     Ok((report, Some(Meshed { mesh, faces, edges, reduction, failures })))
 }

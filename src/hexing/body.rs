@@ -1,17 +1,17 @@
 //! A mesh of one body: attempts, until there is nothing left to mend (design, section 5; issue: refine and retry).
 //!
 //! 1. The background of choice, as it is.
-//! 2. Where that missed something, cells a level smaller there, as often as the options allow, and as long as it helps.
-//!    Of a core that is not of the solid's kind it is not always known where it differs: then thin walls, narrow gaps and
-//!    short curves are refined.
-//! 3. Where cells are bad, or mesh and solid still too far from each other: grids whose lines stand elsewhere; instead of
-//!    a sweep, a grid.
+//! 2. Where that is a sweep whose cells are bad, or that is too far from the solid somewhere, a grid instead.
+//! 3. Where the best missed something, or is too far from the solid, cells a level smaller there, as often as the options
+//!    allow, and as long as it helps. Of a core that is not of the solid's kind it is not always known where it differs:
+//!    then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was lost alone.
+//! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
 //!
 //! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and none is
 //! begun that would be many times as large as the first.
 
 use super::attempt::{Meshed, attempt, off_euler};
-use super::background::{Background, BackgroundError, retry};
+use super::background::{Background, BackgroundError, Failure, Missed, retry};
 use super::ground::{Plan, Site};
 use super::merit::{Bar, GOOD, distance, is_better, is_far, worst};
 use super::options::{HexingError, HexingOptions};
@@ -29,7 +29,11 @@ const POOR: f64 = 0.2;
 const ASTRAY: f64 = 0.5;
 
 /// The background of another try has at most so many times the hexes of the first.
-const GROWTH: u64 = 4;
+const GROWTH: f64 = 4.0;
+
+/// And at most so many times where all that is too far from the solid has smaller cells: of a curved boundary that may be
+/// nearly everything, and whoever gives an edge length wants cells of about that.
+const FAR_GROWTH: f64 = 1.75;
 
 /// So many hexes are never too many for another try.
 const FEW: u64 = 20_000;
@@ -66,22 +70,27 @@ pub(super) fn mesh_body(
         }
         made => made?,
     }
+    if site.may_be_grid() && !search.is_good(POOR, ASTRAY * options.edge_length) {
+        search.another(Plan::of(Background::Grid), search.limit())?;
+    }
     for round in 1..=options.max_levels {
-        let Some(plan) = search.finer(round) else { break };
+        let Some(plan) = search.finer(round, |_| true) else { break };
         let before = search.number();
-        search.another(plan)?;
+        // Where too much is too far, what was lost alone.
+        if !search.another(plan, search.limit_of_far())?
+            && let Some(plan) = search.finer(round, |failure| failure.missed == Missed::Lost)
+        {
+            search.another(plan, search.limit())?;
+        }
         if search.number() == before {
             break;
         }
     }
-    let (shifts, least, farthest): (&[[f64; 3]], f64, f64) = match site.choice.kind {
-        Background::Grid => (&SHIFTS, GOOD, f64::INFINITY),
-        Background::Swept if site.may_be_grid() => (&[[0.0; 3]], POOR, ASTRAY * options.edge_length),
-        _ => (&[], 0.0, f64::INFINITY),
-    };
-    for &shift in shifts {
-        if !search.is_good(least, farthest) {
-            search.another(Plan { shift, ..Plan::of(Background::Grid) })?;
+    if site.choice.kind == Background::Grid {
+        for shift in SHIFTS {
+            if !search.is_good(GOOD, f64::INFINITY) {
+                search.another(Plan { shift, ..Plan::of(Background::Grid) }, search.limit())?;
+            }
         }
     }
     match (&search.best, search.tangled) {
@@ -120,21 +129,42 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Makes an attempt more, if that is not too much to ask for.
-    fn another(&mut self, plan: Plan) -> Result<(), HexingError> {
-        let first = self.attempts.first().map_or(0, |first| first.core.background as u64);
-        let limit = self.site.options.max_hexes.min((GROWTH * first).max(FEW));
-        match self.attempt(plan, limit) {
-            // It was an attempt.
-            Err(HexingError::Background(_) | HexingError::NothingLeft { .. }) => Ok(()),
-            made => made,
+    /// How many hexes the background of another attempt may have.
+    fn limit(&self) -> u64 {
+        self.grown(GROWTH).max(FEW).min(self.site.options.max_hexes)
+    }
+
+    /// How many if all that is too far from the solid has smaller cells.
+    fn limit_of_far(&self) -> u64 {
+        match self.site.options.max_distance {
+            Some(_) => self.limit(),
+            None => self.grown(FAR_GROWTH).min(self.site.options.max_hexes),
         }
     }
 
-    /// The best attempt, with smaller cells where it missed something; none if it missed nothing that these may show.
-    fn finer(&self, round: u8) -> Option<Plan> {
+    /// So many times the hexes of the background that was the first of its kind.
+    fn grown(&self, growth: f64) -> u64 {
+        let kind = self.best_report().map(|best| best.background);
+        let first = self.attempts.iter().find(|attempt| Some(attempt.background) == kind);
+        (growth * first.map_or(0, |first| first.core.background) as f64) as u64
+    }
+
+    /// Makes an attempt more, if its background has no more than `limit` hexes. False if there is no such background.
+    fn another(&mut self, plan: Plan, limit: u64) -> Result<bool, HexingError> {
+        match self.attempt(plan, limit) {
+            Err(HexingError::Background(_)) => Ok(false),
+            // It was an attempt.
+            Err(HexingError::NothingLeft { .. }) => Ok(true),
+            made => made.map(|()| true),
+        }
+    }
+
+    /// The best attempt, with smaller cells where it missed something of what is `looked_at`; none if it missed nothing of
+    /// that which these may show.
+    fn finer(&self, round: u8, looked_at: impl Fn(&Failure) -> bool) -> Option<Plan> {
         let Best { meshed, plan, number } = self.best.as_ref()?;
-        let more = retry(&meshed.failures, self.site.edge_length(), self.site.finest());
+        let failures: Vec<Failure> = meshed.failures.iter().filter(|f| looked_at(f)).cloned().collect();
+        let more = retry(&failures, self.site.edge_length(), self.site.finest());
         let has_place = !more.regions.is_empty();
         let is_wrong = off_euler(&self.attempts[*number].core) > 0;
         let details = if is_wrong && !has_place { round } else { plan.details };
@@ -142,7 +172,8 @@ impl Search<'_> {
             return None;
         }
         let regions = [plan.regions.as_slice(), &more.regions].concat();
-        Some(Plan { regions, details, ..plan.clone() })
+        let in_blocks = plan.in_blocks || failures.iter().any(|failure| failure.missed == Missed::Far);
+        Some(Plan { regions, details, in_blocks, ..plan.clone() })
     }
 
     fn best_report(&self) -> Option<&AttemptReport> {
@@ -171,5 +202,24 @@ impl Search<'_> {
             attempts: self.attempts,
         };
         Body { best: self.best, report }
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::Silent;
+    use crate::solid::testing::{moved, solid, voxels};
+
+    #[test]
+    fn a_recess_shallower_than_half_an_edge_is_shown_by_smaller_cells() {
+        let recessed =
+            voxels([20, 20, 6], |[x, y, z]| z < 5 || !(8..11).contains(&x) || !(8..11).contains(&y));
+        let shallow = moved(recessed, |p| p.with_z(p.z.min(5.0) + 0.4 * (p.z - 5.0).max(0.0)));
+        let options = HexingOptions { edge_length: 1.0, ..HexingOptions::default() };
+        let Body { best, report } = mesh_body(&solid(&shallow), &options, &Silent).unwrap();
+        let distances: Vec<f64> = report.attempts.iter().map(distance).collect();
+        let kept = best.unwrap().number;
+        assert!(distances[0] > 0.5 && kept > 0 && distances[kept] < 0.2, "{distances:?} {kept}");
     }
 }

@@ -4,7 +4,7 @@ use glam::DMat3;
 
 use super::background::{
     AlignedGrid, Background, BackgroundError, Choice, Octree, OctreeMesh, Sweep, SweptScore, Wanted, choose,
-    grid, may_sweep, octree, refined,
+    may_sweep, octree, refined,
 };
 use super::direction::{DirectionScore, best_frame, principal_directions};
 use super::options::HexingOptions;
@@ -32,6 +32,9 @@ pub(super) struct Plan {
     pub(super) shift: [f64; 3],
     /// Where cells are to be smaller, beyond what the options want.
     pub(super) regions: Vec<Region>,
+    /// Are cells of a grid to be halved, in blocks? Else they are cut in three where halves would spread over all of it:
+    /// that shows sooner what was lost, and takes more of the mean.
+    pub(super) in_blocks: bool,
     /// How many levels finer cells may become where walls are thin, gaps narrow and curves short.
     pub(super) details: u8,
 }
@@ -39,7 +42,7 @@ pub(super) struct Plan {
 impl Plan {
     /// A background of this kind, as it is.
     pub(super) fn of(kind: Background) -> Self {
-        Self { kind, shift: [0.0; 3], regions: Vec::new(), details: 0 }
+        Self { kind, shift: [0.0; 3], regions: Vec::new(), in_blocks: false, details: 0 }
     }
 }
 
@@ -102,14 +105,14 @@ impl<'a> Site<'a> {
             details: details > 0,
             levels: if options.curvature.is_some() { options.max_levels } else { details },
             regions: &regions,
+            in_blocks: plan.in_blocks,
         };
         match (plan.kind, &self.sweep) {
-            (Background::Octree, _) => octree(solid, &Octree { grid: aligned, wanted }, monitor),
             (Background::Swept, Some(sweep)) => {
                 let mesh = sweep.mesh(solid, monitor)?;
                 refined(mesh, solid, edge_length, &wanted, max_hexes, monitor)
             }
-            _ => refined(grid(solid, &aligned, monitor)?, solid, edge_length, &wanted, max_hexes, monitor),
+            _ => octree(solid, &Octree { grid: aligned, wanted }, monitor),
         }
     }
 }

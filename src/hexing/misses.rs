@@ -4,11 +4,20 @@ use super::background::{Failure, OctreeMesh};
 use super::core::Core;
 use super::correspondence::{CurveFate, Reason, Reduction};
 use super::ground::Site;
+use super::options::HexingOptions;
 use crate::geometry::{Aabb, BoxIndex, Point};
 use crate::mesh::topology::hex_boundary;
 use crate::mesh::{HexMesh, NodeId, Triangles, samples_beyond};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
+
+/// Edges: where mesh and solid are farther from each other than this, a feature is not shown that smaller cells may show.
+const NEAR: f64 = 0.2;
+
+/// How far mesh and solid may be from each other before smaller cells are tried.
+pub(super) fn tolerance(options: &HexingOptions) -> f64 {
+    options.max_distance.unwrap_or(NEAR * options.edge_length)
+}
 
 /// A closed curve needs so many edges to be routed.
 const AROUND: f64 = 2.5;
@@ -62,9 +71,9 @@ pub(super) fn misses(
         failures.push(Failure::of_surface(solid, lost.surface, 0, finest));
     }
     if !core.report.has_right_euler() {
-        failures.extend(core.lost.iter().map(|part| Failure { points: part.centers.clone(), level: 0 }));
+        failures.extend(core.lost.iter().map(|part| Failure::of_lost(part.centers.clone(), 0)));
     }
-    failures.extend(far.into_iter().map(|p| Failure { points: vec![p], level: 0 }));
+    failures.extend(far.into_iter().map(|place| Failure::of_far(place, 0)));
     failures.iter_mut().for_each(|failure| failure.level = cells.around(&failure.points));
     failures
 }

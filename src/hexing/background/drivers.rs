@@ -12,9 +12,40 @@ pub struct Failure {
     pub points: Vec<Point>,
     /// The level of the cells there; 0 in a plain grid.
     pub level: u8,
+    /// What is missed there.
+    pub missed: Missed,
+}
+
+/// What a try can miss.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Missed {
+    /// A part of the solid, a surface or a curve was lost.
+    Lost,
+    /// Mesh and solid are too far from each other.
+    Far,
+}
+
+impl Missed {
+    /// How many cells around it are refined: what something lost borders on has to find room too.
+    fn reach(self) -> f64 {
+        match self {
+            Self::Lost => 2.0,
+            Self::Far => 1.0,
+        }
+    }
 }
 
 impl Failure {
+    /// Something that was lost, among cells of a level.
+    pub fn of_lost(points: Vec<Point>, level: u8) -> Self {
+        Self { points, level, missed: Missed::Lost }
+    }
+
+    /// A place where mesh and solid are too far from each other, among cells of a level.
+    pub fn of_far(place: Point, level: u8) -> Self {
+        Self { points: vec![place], level, missed: Missed::Far }
+    }
+
     /// A curve that was lost among cells of a level and an edge length.
     pub fn of_curve(solid: &SolidModel, curve: CurveId, level: u8, edge_length: f64) -> Self {
         let vertices = &solid.curves()[curve.index()].vertices;
@@ -25,7 +56,7 @@ impl Failure {
             points.extend((0..steps).map(|k| a.lerp(b, f64::from(k) / f64::from(steps))));
         }
         points.extend(vertices.last().map(|&v| solid.points()[v as usize]));
-        Self { points, level }
+        Self::of_lost(points, level)
     }
 
     /// A surface that was lost among cells of a level and an edge length.
@@ -37,7 +68,7 @@ impl Failure {
             let corners = solid.corners_of(t as usize);
             pieces(corners, is_small, &mut |[a, b, c]| points.push((a + b + c) / 3.0));
         }
-        Self { points, level }
+        Self::of_lost(points, level)
     }
 }
 
@@ -50,17 +81,14 @@ pub struct Retry {
     pub given_up: Vec<usize>,
 }
 
-/// How many cells around a failure are refined.
-const BAND: f64 = 2.0;
-
 /// Asks for one level more around each failure, but for none beyond the `finest`. `edge_length` is that of level 0.
 pub fn retry(failures: &[Failure], edge_length: f64, finest: u8) -> Retry {
     let mut retry = Retry::default();
-    for level in 0..finest {
-        let of_level = failures.iter().filter(|failure| failure.level == level);
-        let points: Vec<Point> = of_level.flat_map(|failure| failure.points.iter().copied()).collect();
+    for (level, missed) in (0..finest).flat_map(|level| [(level, Missed::Lost), (level, Missed::Far)]) {
+        let alike = failures.iter().filter(|failure| failure.level == level && failure.missed == missed);
+        let points: Vec<Point> = alike.flat_map(|failure| failure.points.iter().copied()).collect();
         if !points.is_empty() {
-            let radius = BAND * edge_length / f64::from(1u32 << level.min(31));
+            let radius = missed.reach() * edge_length / f64::from(1u32 << level.min(31));
             let shape = Shape::Points { points, radius };
             retry.regions.push(Region { shape, target: Target::Level(level + 1) });
         }
@@ -76,14 +104,18 @@ mod tests {
 
     #[test]
     fn failures_of_a_level_ask_for_the_next_until_the_finest() {
-        let at = |x: f64, level| Failure { points: vec![Point::X * x], level };
-        let asked = retry(&[at(1.0, 0), at(2.0, 2), at(3.0, 1), at(4.0, 0)], 0.5, 2);
+        let at = |x: f64, level| Failure::of_lost(vec![Point::X * x], level);
+        let far = Failure::of_far(Point::X * 5.0, 0);
+        let asked = retry(&[at(1.0, 0), at(2.0, 2), at(3.0, 1), at(4.0, 0), far], 0.5, 2);
         assert_eq!(asked.given_up, [1]);
         let points = |xs: &[f64], radius, level| Region {
             shape: Shape::Points { points: xs.iter().map(|&x| Point::X * x).collect(), radius },
             target: Target::Level(level),
         };
-        assert_eq!(asked.regions, [points(&[1.0, 4.0], 1.0, 1), points(&[3.0], 0.5, 2)]);
+        assert_eq!(
+            asked.regions,
+            [points(&[1.0, 4.0], 1.0, 1), points(&[5.0], 0.5, 1), points(&[3.0], 0.5, 2)]
+        );
     }
 
     #[test]

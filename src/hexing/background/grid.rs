@@ -10,12 +10,14 @@
 use glam::DMat3;
 
 use super::lines::{Plane, lines};
+use super::rows::Rows;
 use super::swept::SweepError;
 use super::touched::touched;
 use crate::geometry::{Aabb, Point};
 use crate::hexing::face::FaceError;
 use crate::mesh::HexMesh;
-use crate::refine::hex::HexRefineError;
+use crate::mesh::numbering::hex::CORNERS;
+use crate::refine::hex::{HexBlocks, HexRefineError};
 use crate::solid::{SolidModel, Surface, SurfaceClass};
 use crate::{Cancelled, Monitor, Stage, parallel};
 
@@ -137,6 +139,24 @@ pub fn grid(
     options: &AlignedGrid,
     monitor: &dyn Monitor,
 ) -> Result<HexMesh, BackgroundError> {
+    Ok(laid(solid, options, false, monitor)?.0)
+}
+
+/// As [`grid`], but of whole blocks.
+pub(super) fn grid_of_blocks(
+    solid: &SolidModel,
+    options: &AlignedGrid,
+    monitor: &dyn Monitor,
+) -> Result<(HexMesh, HexBlocks), BackgroundError> {
+    laid(solid, options, true, monitor)
+}
+
+fn laid(
+    solid: &SolidModel,
+    options: &AlignedGrid,
+    in_blocks: bool,
+    monitor: &dyn Monitor,
+) -> Result<(HexMesh, HexBlocks), BackgroundError> {
     let &AlignedGrid { edge_length, axes, shift, max_hexes } = options;
     check_size(solid, edge_length, max_hexes)?;
     monitor.checkpoint(BACKGROUND, 0.0)?;
@@ -156,7 +176,14 @@ pub fn grid(
     monitor.checkpoint(BACKGROUND, 0.5)?;
     let position = |at: [u32; 3]| Point::from([0, 1, 2].map(|i| lines[i][at[i] as usize]));
     let centre = |at: [u32; 3]| axes * position(at).midpoint(position(at.map(|c| c + 1)));
-    let cells = shell.filled(|cell| solid.contains(centre(cell))).made_manifold();
+    let mut cells = shell.filled(|cell| solid.contains(centre(cell))).made_manifold();
+    if in_blocks {
+        let mut whole = cells.in_blocks();
+        while whole != cells {
+            cells = whole.made_manifold();
+            whole = cells.in_blocks();
+        }
+    }
     if cells.len() > max_hexes {
         return Err(BackgroundError::TooManyHexes { hexes: cells.len() as f64, limit: max_hexes });
     }
@@ -164,8 +191,26 @@ pub fn grid(
     let nodes = cells.nodes();
     let positions = nodes.map(|at| axes * position(at));
     let mesh = HexMesh { positions, hexes: cells.hexes(&nodes), ..HexMesh::default() };
+    let blocks = if in_blocks { blocks_of(&cells) } else { HexBlocks::default() };
     monitor.checkpoint(BACKGROUND, 1.0)?;
-    Ok(mesh)
+    Ok((mesh, blocks))
+}
+
+/// The blocks of two by two by two cells, as even and odd places make them.
+fn blocks_of(cells: &Rows) -> HexBlocks {
+    let places = cells.map(|place| place);
+    let mut blocks: Vec<[u32; 3]> = cells.map(|place| place.map(|c| c / 2));
+    parallel::sort(&mut blocks);
+    blocks.dedup();
+    let number = |k: usize| blocks.partition_point(|block| *block < places[k].map(|c| c / 2)) as u32;
+    let octant = |k: usize| {
+        let corner = places[k].map(|c| (c % 2) as u8);
+        CORNERS.iter().position(|&other| other == corner).expect("a corner of a cube") as u8
+    };
+    HexBlocks {
+        block: parallel::collect(places.len(), number),
+        octant: parallel::collect(places.len(), octant),
+    }
 }
 
 /// Refuses what cannot be made, before any work: of several bodies too.

@@ -7,10 +7,10 @@
 //! Any background can be refined so; an octree is an aligned grid, coarser than wanted, with its boundary refined.
 
 use super::demand::Demands;
-use super::grid::{AlignedGrid, BackgroundError, grid};
+use super::grid::{AlignedGrid, BackgroundError, grid, grid_of_blocks};
 use crate::Monitor;
 use crate::mesh::HexMesh;
-use crate::refine::hex::{HexOptions, HexPlan, HexRefineError, Method};
+use crate::refine::hex::{HexBlocks, HexOptions, HexPlan, HexRefineError, Method};
 use crate::sizing::{Region, Shape, Target};
 use crate::solid::SolidModel;
 
@@ -27,6 +27,9 @@ pub struct Wanted<'a> {
     pub levels: u8,
     /// Where else cells are to be smaller.
     pub regions: &'a [Region],
+    /// Are the cells of a grid that are not all finer at the boundary refined in blocks of eight? Then they are halved, and
+    /// others stay as they are.
+    pub in_blocks: bool,
 }
 
 /// What [`octree`] is to make.
@@ -59,9 +62,15 @@ pub fn octree(
     options: &Octree<'_>,
     monitor: &dyn Monitor,
 ) -> Result<OctreeMesh, BackgroundError> {
-    let mesh = grid(solid, &options.grid, monitor)?;
     let AlignedGrid { edge_length, max_hexes, .. } = options.grid;
-    refined(mesh, solid, edge_length, &options.wanted, max_hexes, monitor)
+    let wanted = &options.wanted;
+    let regions = regions(solid, edge_length, wanted, monitor)?;
+    if regions.is_empty() || wanted.boundary_level > 0 || !wanted.in_blocks {
+        let mesh = grid(solid, &options.grid, monitor)?;
+        return refined_in(mesh, None, regions, wanted.boundary_level, max_hexes, monitor);
+    }
+    let (mesh, blocks) = grid_of_blocks(solid, &options.grid, monitor)?;
+    refined_in(mesh, Some(blocks), regions, wanted.boundary_level, max_hexes, monitor)
 }
 
 /// Refines any background whose edges are about `edge_length` long, to no more than `max_hexes`.
@@ -77,16 +86,32 @@ pub fn refined(
     monitor: &dyn Monitor,
 ) -> Result<OctreeMesh, BackgroundError> {
     let regions = regions(solid, edge_length, wanted, monitor)?;
+    refined_in(background, None, regions, wanted.boundary_level, max_hexes, monitor)
+}
+
+/// Refines a background, whose hexes may stand in blocks, in the regions.
+fn refined_in(
+    background: HexMesh,
+    blocks: Option<HexBlocks>,
+    regions: Vec<Region>,
+    boundary_level: u8,
+    max_hexes: u64,
+    monitor: &dyn Monitor,
+) -> Result<OctreeMesh, BackgroundError> {
     if regions.is_empty() {
         let level = vec![0; background.hexes.len()];
         return Ok(OctreeMesh { mesh: background, level });
     }
     let halved = HexOptions { regions, max_hexes, ..HexOptions::default() };
     let thirds = HexOptions { method: Method::Three, ..halved.clone() };
-    let plan = match HexPlan::new(&background, &halved, monitor) {
+    let in_halves = match &blocks {
+        Some(blocks) => HexPlan::of_blocks(&background, blocks, &halved, monitor),
+        None => HexPlan::new(&background, &halved, monitor),
+    };
+    let plan = match in_halves {
         Ok(plan) if plan.tree_hexes() < 8 * background.hexes.len() => plan,
         // All of the boundary is wanted finer, in halves.
-        plan if wanted.boundary_level > 0 => plan?,
+        plan if boundary_level > 0 => plan?,
         plan => fewest(plan, HexPlan::new(&background, &thirds, monitor))?,
     };
     let refined = plan.carry_out(monitor)?;
@@ -118,7 +143,7 @@ fn regions(
     wanted: &Wanted<'_>,
     monitor: &dyn Monitor,
 ) -> Result<Vec<Region>, BackgroundError> {
-    let &Wanted { boundary_level, curvature, details, levels, regions } = wanted;
+    let &Wanted { boundary_level, curvature, details, levels, regions, .. } = wanted;
     let edge_of = |level: u8| edge_length / f64::from(1u32 << level.min(31));
     let mut all = regions.to_vec();
     all.extend((1..=boundary_level).map(|level| {
@@ -183,6 +208,21 @@ mod tests {
         let plain = grid(&solid, &AlignedGrid::new(1.0), &Silent).unwrap().hexes.len();
         let fine = made.level.iter().filter(|&&level| level == 1).count();
         assert!((27..400).contains(&fine) && made.mesh.hexes.len() < 2 * plain, "{fine} {plain}");
+    }
+
+    /// In a plain grid cells stand in blocks of eight, so that they can be halved in one place alone.
+    #[test]
+    fn cells_of_a_plain_grid_are_halved_in_blocks() {
+        let solid = solid(&voxels([9, 9, 9], |_| true));
+        for at in [[4.5, 4.5, 4.5], [0.0, 3.0, 9.0], [5.0, 0.5, 0.5]] {
+            let shape = Shape::Points { points: vec![Point::from(at)], radius: 1.0 };
+            let regions = [Region { shape, target: Target::Level(1) }];
+            let made = made(&solid, 1.0, Wanted { regions: &regions, in_blocks: true, ..Wanted::default() });
+            assert_eq!(check_hexes(&made.mesh), []);
+            let count = |level| made.level.iter().filter(|&&l| l == level).count();
+            assert_eq!(count(1) % 64, 0, "whole blocks, each cell in eight");
+            assert!(count(1) <= 64 * 27 && count(0) > 13 * 13 * 13 / 2, "{} {}", count(1), count(0));
+        }
     }
 
     #[test]

@@ -125,6 +125,18 @@ impl Rows {
         Self::merged(self.counts, more)
     }
 
+    /// These cells and the others of their blocks, of two by two by two cells each, within the grid.
+    pub fn in_blocks(&self) -> Self {
+        let [nx, ny, nz] = self.counts;
+        let of_block = |c: u32, count: u32| c & !1..((c | 1) + 1).min(count);
+        let whole = self.all().flat_map(|([y, z], run)| {
+            let (start, end) = (run.start & !1, (((run.end - 1) | 1) + 1).min(nx));
+            let rows = of_block(z, nz).flat_map(move |z| of_block(y, ny).map(move |y| [y, z]));
+            rows.map(move |[y, z]| (Self::row(self.counts, y, z), start, end))
+        });
+        Self::merged(self.counts, whole.collect())
+    }
+
     /// These cells and as few others that around each node the cells that are there share faces, and the others too:
     /// then they fill a manifold with boundary.
     pub fn made_manifold(mut self) -> Self {
@@ -254,6 +266,15 @@ mod tests {
         let some = [[0, 0, 0], [3, 2, 1], [5, 4, 3]];
         let near = |a: [u32; 3], b: [u32; 3]| (0..3).all(|i| a[i].abs_diff(b[i]) <= 1);
         assert_eq!(rows(&some).grown(), rows(&cells(|cell| some.iter().any(|&s| near(s, cell)))));
+    }
+
+    #[test]
+    fn blocks_are_completed_within_the_grid() {
+        let some = [[0, 0, 0], [3, 2, 1], [4, 4, 3]];
+        let together = |a: [u32; 3], b: [u32; 3]| (0..3).all(|i| a[i] / 2 == b[i] / 2);
+        let whole = rows(&cells(|cell| some.iter().any(|&s| together(s, cell))));
+        assert_eq!(rows(&some).in_blocks(), whole);
+        assert_eq!(whole.in_blocks(), whole);
     }
 
     #[test]

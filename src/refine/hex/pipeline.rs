@@ -65,6 +65,9 @@ impl HexPlan<'_> {
     pub fn carry_out(mut self, monitor: &dyn Monitor) -> Result<RefinedHexes, HexRefineError> {
         let monitor = &Rising { inner: monitor, told: Mutex::default() };
         let mut made = Made::of_input(&self.input);
+        if let Some(blocks) = self.blocks {
+            made.mesh.octant.clone_from(&blocks.octant);
+        }
         if self.outline.is_some() {
             let surface = boundary_surface(&self.input, monitor)?;
             let mut restarts = 0;

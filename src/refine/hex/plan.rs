@@ -1,8 +1,8 @@
 //! What will be refined, decided before a hex is made: the trees of section 3, closed.
 //!
 //! 1. Decide level by level what is wanted finer ([`HexRefinement`]).
-//! 2. Close the trees. Octrees: whole families around a volume node, strong balance, what the method's templates fit;
-//!    trees of 27: graded levels.
+//! 2. Close the trees. Octrees: whole families around a volume node, strong balance, what the method's templates fit, and
+//!    whole blocks where hexes of level 0 stand in blocks of two by two by two; trees of 27: graded levels.
 //! 3. With [`Method::Auto`], ask whether the interface within level 0 can be grouped two by two. If it cannot,
 //!    all of level 0 is refined, which makes families of everything.
 //! 4. Look at each level's interface (`forecast`). Where it cannot be separated, refine more, and close again.
@@ -23,6 +23,8 @@ const CLOSE: Stage = Stage("close");
 #[derive(Debug)]
 pub struct HexPlan<'a> {
     pub(super) options: &'a HexOptions,
+    /// The blocks of the input's hexes, if these stand in blocks.
+    pub(super) blocks: Option<&'a HexBlocks>,
     /// The input, oriented, without unused nodes.
     pub(super) input: HexMesh,
     /// None if nothing is to be refined.
@@ -45,6 +47,15 @@ pub(super) struct Decided {
     pub(super) idle_regions: Vec<u32>,
     /// Nodes of the input that stand exactly where earlier ones do.
     pub(super) coincident_nodes: usize,
+}
+
+/// Hexes in blocks of two by two by two: what the families of deeper levels are, in the input.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct HexBlocks {
+    /// The block of each hex.
+    pub block: Vec<u32>,
+    /// Which of the corners of its block each hex is at, if all hexes of a block are numbered alike.
+    pub octant: Vec<u8>,
 }
 
 /// What a plan was given more to refine.
@@ -71,21 +82,49 @@ impl<'a> HexPlan<'a> {
         refinement.plan(monitor)
     }
 
-    /// Closes the trees over `input`.
-    pub(super) fn closed(
+    /// As [`HexPlan::new`], where the hexes of the input stand in blocks: whole ones are refined, so that hexes away from
+    /// them can stay as they are.
+    ///
+    /// # Errors
+    /// As [`HexPlan::new`].
+    ///
+    /// # Panics
+    /// If there is not one block and one octant for each hex.
+    pub fn of_blocks(
+        input: &HexMesh,
+        blocks: &'a HexBlocks,
         options: &'a HexOptions,
-        input: HexMesh,
-        trees: Option<Trees>,
-        decided: Decided,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
+        let count = input.hexes.len();
+        assert_eq!(
+            [blocks.block.len(), blocks.octant.len()],
+            [count; 2],
+            "a block and an octant for each hex"
+        );
+        let mut refinement = HexRefinement::new(input, options, monitor)?;
+        while refinement.advance(None, monitor)? {}
+        let (plan, trees) = refinement.unsettled(monitor)?;
+        Self { blocks: Some(blocks), ..plan }.settled(trees, monitor)
+    }
+
+    /// Nothing to be refined yet.
+    pub(super) fn of_input(options: &'a HexOptions, input: HexMesh, decided: Decided) -> Self {
         let forecast = HexForecast::new(input.hexes.len(), Vec::new());
         let added = Added { base: decided.base, ..Added::default() };
-        let mut plan = Self { options, input, outline: None, added, decided, forecast };
+        Self { options, blocks: None, input, outline: None, added, decided, forecast }
+    }
+
+    /// With these trees over the input, closed.
+    pub(super) fn settled(
+        mut self,
+        trees: Option<Trees>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, HexRefineError> {
         if let Some(trees) = trees {
-            plan.settle(trees, monitor)?;
+            self.settle(trees, monitor)?;
         }
-        Ok(plan)
+        Ok(self)
     }
 
     /// Elements that are refined beyond those that the options ask for, and why.
@@ -149,6 +188,19 @@ impl<'a> HexPlan<'a> {
 
     /// Step 2.
     fn close(&mut self, trees: &mut Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
+        loop {
+            self.close_once(trees, monitor)?;
+            let rest = self.rest_of_blocks(trees);
+            if rest.is_empty() {
+                return Ok(());
+            }
+            self.may_grow(trees, (0, &rest), "for whole blocks")?;
+            self.added.closure.families += rest.len();
+            trees.split(0, &rest, monitor)?;
+        }
+    }
+
+    fn close_once(&mut self, trees: &mut Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
         let (admits, limit) = (self.options.method.admits(), self.options.max_hexes);
         if self.options.growth == Growth::Refuse && admits.is_some() {
             // What the method adds is what is refined after families and grading are complete.
@@ -169,10 +221,24 @@ impl<'a> HexPlan<'a> {
         Ok(())
     }
 
+    /// The hexes of level 0 in blocks that are refined in part, and are not refined yet.
+    fn rest_of_blocks(&self, trees: &Trees) -> Vec<u32> {
+        let Some(HexBlocks { block: blocks, .. }) = self.blocks else { return Vec::new() };
+        let base = trees.level(0);
+        let bound = blocks.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut is_wanted = vec![false; bound];
+        base.refined.iter().for_each(|&e| is_wanted[blocks[e as usize] as usize] = true);
+        let is_rest = |&e: &u32| is_wanted[blocks[e as usize] as usize] && !base.is_refined[e as usize];
+        (0..blocks.len() as u32).filter(is_rest).collect()
+    }
+
     /// Step 3.
     fn group(&mut self, trees: &mut Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
         let base = trees.level(0);
-        if self.options.method != Method::Auto || base.refined.len() == base.elements.len() {
+        if self.options.method != Method::Auto
+            || self.blocks.is_some()
+            || base.refined.len() == base.elements.len()
+        {
             return Ok(());
         }
         let mesh = StageMesh::of_mesh(&self.input);

@@ -134,6 +134,15 @@ impl<'a> HexRefinement<'a> {
     /// # Errors
     /// If the mesh would become too large, or the monitor stops it.
     pub fn plan(self, monitor: &dyn Monitor) -> Result<HexPlan<'a>, HexRefineError> {
+        let (plan, trees) = self.unsettled(monitor)?;
+        plan.settled(trees, monitor)
+    }
+
+    /// A plan, and the trees that it has yet to be given.
+    pub(super) fn unsettled(
+        self,
+        monitor: &dyn Monitor,
+    ) -> Result<(HexPlan<'a>, Option<Trees>), HexRefineError> {
         let Self { options, input, field, trees, capped, turned, base } = self;
         let idle_regions = field.idle_regions(input.hexes.len(), monitor, |h| {
             let corners = input.hexes[h].map(|n| input.positions[n.index()]);
@@ -141,7 +150,7 @@ impl<'a> HexRefinement<'a> {
         })?;
         let coincident_nodes = coincident_nodes(&input.positions);
         let decided = Decided { capped, turned, base, idle_regions, coincident_nodes };
-        HexPlan::closed(options, input, trees, decided, monitor)
+        Ok((HexPlan::of_input(options, input, decided), trees))
     }
 
     /// Makes the mesh.
