@@ -50,13 +50,17 @@ pub struct OptimizeOptions {
     pub target: f64,
     /// Sweeps over the tangled part before the cells left are given up.
     pub untangle_sweeps: usize,
+    /// Courses of smoothing, at most 4: the first looks at shape alone, each further one more at the worst corners.
+    pub courses: usize,
     /// Sweeps over the cells below the target in each of the courses of smoothing.
     pub smooth_sweeps: usize,
+    /// Sweeps over the few worst cells alone, after those.
+    pub worst_sweeps: usize,
 }
 
 impl Default for OptimizeOptions {
     fn default() -> Self {
-        Self { target: 0.75, untangle_sweeps: 200, smooth_sweeps: 5 }
+        Self { target: 0.75, untangle_sweeps: 200, courses: 4, smooth_sweeps: 5, worst_sweeps: 0 }
     }
 }
 

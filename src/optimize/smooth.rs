@@ -3,7 +3,8 @@
 //! 1. Courses whose energy weighs shape first, then angles, in growing powers: what a high power sums is hardly more
 //!    than its greatest term, the worst corner.
 //! 2. Each course moves the nodes of the cells below its target alone, and those a ring around.
-//! 3. No round lowers the worst scaled Jacobian. Cells are kept positive inside by looking at them after each round,
+//! 3. Where that is asked for, it then goes on with the few worst cells: these take the most rounds, and few nodes.
+//! 4. No round lowers the worst scaled Jacobian. Cells are kept positive inside by looking at them after each round,
 //!    and where one was lost by making the round again, with that cell guarded at each of its nodes' steps.
 
 use super::energy::Weights;
@@ -37,6 +38,10 @@ const GUARDED: f64 = 0.2;
 /// Rings of cells around those below the target whose nodes move too.
 const RINGS: usize = 1;
 
+/// The worst cells are those below the scaled Jacobian that this share of the cells is below, or this many.
+const WORST_SHARE: f64 = 0.003;
+const WORST: usize = 100;
+
 /// Returns the number of rounds made.
 pub(crate) fn smooth(
     problem: &mut Problem,
@@ -44,36 +49,53 @@ pub(crate) fn smooth(
     options: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    let total = (COURSES.len() * options.smooth_sweeps) as f64;
+    let courses = COURSES.into_iter().take(options.courses);
+    let total = (courses.len() * (options.smooth_sweeps + options.worst_sweeps)) as f64;
     let mut jacobians = problem.scaled_jacobians(monitor)?;
-    let mut done = 0;
-    for (index, Course { weights, below }) in COURSES.into_iter().enumerate() {
-        let target = options.target - below;
-        let low: Vec<usize> = (0..jacobians.len()).filter(|&c| jacobians[c] < target).collect();
-        if low.is_empty() {
-            continue;
-        }
-        let allowed = problem.rings_within(&low, RINGS, monitor)?;
-        let mut awake = allowed.clone();
-        problem.guarded = jacobians.iter().map(|&jacobian| jacobian < GUARDED).collect();
-        for round in 0..options.smooth_sweeps {
-            monitor.checkpoint(SMOOTHING, (index * options.smooth_sweeps + round) as f64 / total)?;
-            let worst = jacobians.iter().copied().fold(f64::INFINITY, f64::min);
-            let rules = Rules { guide, weights, eps: 0.0, floor: Some(worst), asleep: ASLEEP };
-            let round =
-                |problem: &mut Problem, awake: &mut [bool]| sweep(problem, rules, &allowed, awake, monitor);
-            let (changed, moved) = keep_positive(problem, &mut awake, monitor, round)?;
-            let jacobian = |k: usize| scaled_jacobian(&problem.corners(changed[k] as usize));
-            let renewed = parallel::try_collect(changed.len(), monitor, jacobian)?;
-            changed.iter().zip(renewed).for_each(|(&cell, jacobian)| jacobians[cell as usize] = jacobian);
-            done += 1;
-            if moved.far == 0 {
-                break;
+    let (mut done, mut planned) = (0, 0);
+    for Course { weights, below } in courses {
+        for (sweeps, are_worst) in [(options.smooth_sweeps, false), (options.worst_sweeps, true)] {
+            let first = planned;
+            planned += sweeps;
+            let target = options.target - below;
+            let target = if are_worst { target.min(worst_target(&jacobians)) } else { target };
+            let low: Vec<usize> = (0..jacobians.len()).filter(|&c| jacobians[c] < target).collect();
+            if low.is_empty() || sweeps == 0 {
+                continue;
+            }
+            let allowed = problem.rings_within(&low, RINGS, monitor)?;
+            let mut awake = allowed.clone();
+            problem.guarded = jacobians.iter().map(|&jacobian| jacobian < GUARDED).collect();
+            for round in 0..sweeps {
+                monitor.checkpoint(SMOOTHING, (first + round) as f64 / total)?;
+                let worst = jacobians.iter().copied().fold(f64::INFINITY, f64::min);
+                let rules = Rules { guide, weights, eps: 0.0, floor: Some(worst), asleep: ASLEEP };
+                let round = |problem: &mut Problem, awake: &mut [bool]| {
+                    sweep(problem, rules, &allowed, awake, monitor)
+                };
+                let (changed, moved) = keep_positive(problem, &mut awake, monitor, round)?;
+                let jacobian = |k: usize| scaled_jacobian(&problem.corners(changed[k] as usize));
+                let renewed = parallel::try_collect(changed.len(), monitor, jacobian)?;
+                changed.iter().zip(renewed).for_each(|(&cell, jacobian)| jacobians[cell as usize] = jacobian);
+                done += 1;
+                if moved.far == 0 {
+                    break;
+                }
             }
         }
     }
     monitor.checkpoint(SMOOTHING, 1.0)?;
     Ok(done)
+}
+
+/// What the worst cells are below.
+fn worst_target(jacobians: &[f64]) -> f64 {
+    let count = WORST.max((WORST_SHARE * jacobians.len() as f64) as usize);
+    if count >= jacobians.len() {
+        return f64::INFINITY;
+    }
+    let mut sorted = jacobians.to_vec();
+    *sorted.select_nth_unstable_by(count, f64::total_cmp).1
 }
 
 /// Makes a round, again and again until every cell that was positive inside still is: those that were lost are guarded
@@ -111,6 +133,14 @@ mod tests {
     use crate::geometry::Point;
     use crate::mesh::NodeId;
     use crate::mesh::numbering::hex::CORNERS;
+
+    #[test]
+    fn the_worst_are_a_share_and_some_at_least() {
+        let jacobians = |count: usize| (0..count).rev().map(|k| k as f64).collect::<Vec<_>>();
+        assert_eq!(worst_target(&jacobians(WORST)), f64::INFINITY);
+        assert_eq!(worst_target(&jacobians(2 * WORST)), WORST as f64);
+        assert_eq!(worst_target(&jacobians(100_000)), 300.0);
+    }
 
     /// A round that loses a cell is made again from where the nodes were, with the cell guarded.
     #[test]

@@ -2,10 +2,10 @@
 
 use super::local::Local;
 use super::options::{HexRefineError, Method};
-use super::stage::{StageError, StageMesh, StageResult, stage};
+use super::stage::{StageError, StageMesh, StageResult, opened_stage};
 use crate::Monitor;
 use crate::mesh::HexId;
-use crate::optimize::BoundarySurface;
+use crate::optimize::{BoundarySurface, OptimizeOptions};
 
 /// How a stage ended.
 pub(super) enum Attempt {
@@ -32,7 +32,7 @@ pub(super) fn attempt(
     surface: &BoundarySurface,
     monitor: &dyn Monitor,
 ) -> Result<Attempt, HexRefineError> {
-    let mut next = match stage(mesh, refined, method, monitor) {
+    let mut next = match opened_stage(mesh, refined, method, monitor) {
         Err(StageError::Conflict(hexes)) => return Ok(Attempt::Conflict(hexes)),
         other => other.map_err(without_template)?,
     };
@@ -40,13 +40,15 @@ pub(super) fn attempt(
         return Ok(Attempt::Made(Box::new(next)));
     }
     let mut local = Local::around(&next, monitor)?;
-    let mut tangled = relax(&next, &mut local, surface, monitor)?;
+    let is_inside = next.mesh.materials.is_empty() && local.is_inside(monitor)?;
+    let options = smoothing(method, is_inside);
+    let mut tangled = relax(&next, &mut local, surface, &options, monitor)?;
     for rings in WIDER {
         if tangled.is_empty() {
             break;
         }
         local = Local::wider(&next, &tangled, rings, monitor)?;
-        tangled = relax(&next, &mut local, surface, monitor)?;
+        tangled = relax(&next, &mut local, surface, &options, monitor)?;
     }
     local.write_back(&mut next.mesh.positions);
     if tangled.is_empty() {
@@ -55,19 +57,30 @@ pub(super) fn attempt(
     Ok(Attempt::Tangled { coarse: coarse_at(&next, &tangled), hexes: tangled.len() })
 }
 
+/// How far to smooth the transition of a method. A pillow that is inside was opened before it was divided, and needs less.
+fn smoothing(method: Method, is_inside: bool) -> OptimizeOptions {
+    let all = OptimizeOptions::default();
+    match method {
+        Method::One => OptimizeOptions { smooth_sweeps: 3, worst_sweeps: 4, ..all },
+        _ if is_inside => OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 6, ..all },
+        _ => all,
+    }
+}
+
 /// Untangles and smooths some hexes of a stage. Those that stay inverted.
 fn relax(
     stage: &StageResult,
     local: &mut Local,
     surface: &BoundarySurface,
+    options: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<Vec<HexId>, HexRefineError> {
     let constraints = local.constraints(&stage.mesh, surface, monitor)?;
-    let mut report = local.optimize(&constraints, monitor)?;
+    let mut report = local.optimize(&constraints, options, monitor)?;
     if report.off_boundary > STRAYED * local.shortest_edge() {
         // A node has passed the end of its patch: it lies in the plane of that, but no more on the boundary.
         local.put_back(&stage.mesh.positions);
-        report = local.optimize(&constraints.bounded(), monitor)?;
+        report = local.optimize(&constraints.bounded(), options, monitor)?;
     }
     Ok(report.inverted.iter().map(|h| local.hex_ids[h.index()]).collect())
 }

@@ -59,9 +59,29 @@ impl Local {
         let mut has_near = vec![false; from.iter().max().map_or(0, |&most| most as usize + 1)];
         near.iter().for_each(|&h| has_near[from[h as usize] as usize] = true);
         let hex_ids = parallel::try_filter(mesh.hexes.len(), monitor, |h| has_near[from[h] as usize])?;
+        Self::of_hexes((&mesh.positions, &mesh.hexes), hex_ids, moves, monitor)
+    }
+
+    /// The hexes at the nodes that move.
+    pub(super) fn at(
+        (positions, hexes): (&[Point], &[[NodeId; 8]]),
+        moves: &[bool],
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let is_near = |h: usize| hexes[h].iter().any(|n| moves[n.index()]);
+        let hex_ids = parallel::try_filter(hexes.len(), monitor, is_near)?;
+        Self::of_hexes((positions, hexes), hex_ids, moves, monitor)
+    }
+
+    fn of_hexes(
+        (positions, hexes): (&[Point], &[[NodeId; 8]]),
+        hex_ids: Vec<u32>,
+        moves: &[bool],
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let hex_ids: Vec<HexId> = hex_ids.into_iter().map(HexId).collect();
-        let mut number = vec![NodeId(u32::MAX); mesh.positions.len()];
-        hex_ids.iter().flat_map(|h| mesh.hexes[h.index()]).for_each(|n| number[n.index()] = NodeId(0));
+        let mut number = vec![NodeId(u32::MAX); positions.len()];
+        hex_ids.iter().flat_map(|h| hexes[h.index()]).for_each(|n| number[n.index()] = NodeId(0));
         let mut nodes = Vec::new();
         for (n, number) in number.iter_mut().enumerate().filter(|(_, number)| **number == NodeId(0)) {
             *number = NodeId::new(nodes.len());
@@ -69,8 +89,8 @@ impl Local {
         }
         monitor.proceed()?;
         Ok(Self {
-            positions: nodes.iter().map(|n| mesh.positions[n.index()]).collect(),
-            hexes: hex_ids.iter().map(|h| mesh.hexes[h.index()].map(|n| number[n.index()])).collect(),
+            positions: nodes.iter().map(|n| positions[n.index()]).collect(),
+            hexes: hex_ids.iter().map(|h| hexes[h.index()].map(|n| number[n.index()])).collect(),
             movable: nodes.iter().map(|n| moves[n.index()]).collect(),
             nodes,
             hex_ids,
@@ -111,10 +131,23 @@ impl Local {
     pub(super) fn optimize(
         &mut self,
         constraints: &Constraints,
+        options: &OptimizeOptions,
         monitor: &dyn Monitor,
     ) -> Result<OptimizeReport, Cancelled> {
         let Self { positions, hexes, movable, .. } = self;
-        optimize(positions, hexes, movable, constraints, &OptimizeOptions::default(), monitor)
+        optimize(positions, hexes, movable, constraints, options, monitor)
+    }
+
+    /// How many nodes there are.
+    pub(super) fn node_count(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Is no movable node on the boundary? All hexes at such a node are here, so that its faces show it.
+    pub(super) fn is_inside(&self, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
+        let faces = HexFaces::within(self.positions.len(), &self.hexes, monitor)?;
+        let is_movable = |f: FaceId| faces.nodes[f.index()].iter().any(|n| self.movable[n.index()]);
+        Ok(!faces.ids().any(|f| faces.is_boundary(f) && is_movable(f)))
     }
 
     /// The length of the shortest edge.

@@ -48,6 +48,7 @@ mod labels;
 mod layers;
 mod local;
 mod materials;
+mod open;
 mod options;
 mod outline;
 mod pillow;

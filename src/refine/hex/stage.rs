@@ -9,6 +9,7 @@ use super::interface::Interface;
 use super::labels;
 use super::layers::layers;
 use super::materials::materials_of;
+use super::open::open;
 use super::options::Method;
 use super::pillow::{LayerHex, Pillow, pillow};
 use super::quarters::{Quarter, place_quarters};
@@ -150,6 +151,25 @@ pub fn stage(
     method: Method,
     monitor: &dyn Monitor,
 ) -> Result<StageResult, StageError> {
+    stage_of(mesh, refined, (method, false), monitor)
+}
+
+/// The same, with the layer of a pillow opened before it is divided, where that is done (`open`).
+pub(super) fn opened_stage(
+    mesh: &StageMesh,
+    refined: &[bool],
+    method: Method,
+    monitor: &dyn Monitor,
+) -> Result<StageResult, StageError> {
+    stage_of(mesh, refined, (method, true), monitor)
+}
+
+fn stage_of(
+    mesh: &StageMesh,
+    refined: &[bool],
+    (method, is_opened): (Method, bool),
+    monitor: &dyn Monitor,
+) -> Result<StageResult, StageError> {
     assert_eq!(refined.len(), mesh.hexes.len(), "one entry a hex");
     let mut interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?.of_stage(mesh);
     match method {
@@ -170,13 +190,13 @@ pub fn stage(
             let pillow = pillow(&mesh.positions, &mut interface, monitor)?;
             let divided = quarters(&pillow, &mesh.octant).map_err(StageError::NotCouplable)?;
             drop(interface);
-            pillowed_stage(mesh, refined, pillow, (&SPLIT, divided), monitor)
+            pillowed_stage(mesh, refined, (pillow, is_opened), (&SPLIT, divided), monitor)
         }
         Method::Three => {
             let pillow = pillow(&mesh.positions, &mut interface, monitor)?;
             let divided = thirteens(&pillow);
             drop(interface);
-            pillowed_stage(mesh, refined, pillow, (&THIRDS, divided), monitor)
+            pillowed_stage(mesh, refined, (pillow, is_opened), (&THIRDS, divided), monitor)
         }
         Method::Auto => {
             let pillow = pillow(&mesh.positions, &mut interface, monitor)?;
@@ -185,7 +205,7 @@ pub fn stage(
                 Err(_) => (&THIRDS, thirteens(&pillow)),
             };
             drop(interface);
-            pillowed_stage(mesh, refined, pillow, templates, monitor)
+            pillowed_stage(mesh, refined, (pillow, is_opened), templates, monitor)
         }
     }
 }
@@ -230,10 +250,13 @@ fn thirteens(pillow: &Pillow) -> Vec<Divided> {
 fn pillowed_stage(
     mesh: &StageMesh,
     refined: &[bool],
-    pillow: Pillow,
+    (mut pillow, is_opened): (Pillow, bool),
     (split, divided): (&'static Template, Vec<Divided>),
     monitor: &dyn Monitor,
 ) -> Result<StageResult, StageError> {
+    if is_opened && mesh.materials.is_empty() {
+        open(&mut pillow, monitor)?;
+    }
     let Pillow { positions, hexes, layer, pinched_edges } = pillow;
     let of_coarse = |(hex, divided): (&LayerHex, Divided)| Transition {
         from: hex.face.coarse,
