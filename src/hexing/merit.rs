@@ -8,7 +8,7 @@
 //! |---|---|
 //! | how far mesh and solid are from each other | edges |
 //! | curves and surfaces that are lost | share of all |
-//! | the mean scaled Jacobian | what it lacks to 1, twice |
+//! | the mean scaled Jacobian | what it lacks to 1, twice, and to [`FAIR`], ten times |
 //! | the least scaled Jacobian | what it lacks to [`GOOD`], as a share of that |
 
 use std::cmp::Ordering;
@@ -22,6 +22,10 @@ pub(super) const GOOD: f64 = 0.35;
 
 /// What a lack of mean scaled Jacobian weighs.
 const MEAN: f64 = 2.0;
+
+/// A mean scaled Jacobian that smaller cells must not cost, and what each lack of it weighs.
+const FAIR: f64 = 0.85;
+const UNFAIR: f64 = 10.0;
 
 /// An attempt that loses a greater share of the features than another by this is given up before it is fitted.
 const LOSS: f64 = 0.02;
@@ -82,6 +86,7 @@ fn cost(report: &AttemptReport, options: &HexingOptions) -> f64 {
     distance(report) / options.edge_length
         + lost(report.features.as_ref())
         + MEAN * (1.0 - mesh.mean)
+        + UNFAIR * (FAIR - mesh.mean).max(0.0)
         + lacking
 }
 
@@ -136,6 +141,13 @@ mod tests {
         assert!(is_better(&lost_one, &all_kept, &options()));
         // Of two that are alike else it does count.
         assert!(is_better(&attempt(2, 0, 0.9, 0.44, 0.93), &lost_one, &options()));
+    }
+
+    #[test]
+    fn a_few_more_features_are_not_worth_a_poor_mean() {
+        let (fewer, more) = (attempt(2, 27, 1.0, 0.345, 0.865), attempt(2, 3, 0.85, 0.335, 0.8));
+        assert!(is_better(&fewer, &more, &options()));
+        assert!(is_better(&attempt(2, 3, 0.85, 0.335, 0.85), &fewer, &options()));
     }
 
     #[test]
