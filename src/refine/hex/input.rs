@@ -8,7 +8,9 @@ use crate::geometry::Point;
 use crate::mesh::check::{Defect, summary};
 use crate::mesh::quality::{Certainty, is_positive};
 use crate::mesh::topology::{HexFaces, Side, hex_of};
-use crate::mesh::{FaceId, HexId, HexMesh, NodeId, QuadMesh, check_hexes_within, orient_hexes};
+use crate::mesh::{
+    FaceId, HexId, HexMesh, NodeId, QuadMesh, check_hexes_within, first_of_same, orient_hexes,
+};
 use crate::monitor::batches;
 use crate::optimize::{BoundarySurface, FaceKind};
 use crate::{Cancelled, Monitor, Stage, parallel};
@@ -69,11 +71,7 @@ fn keep_causes(defects: &mut Vec<Defect>) {
 
 /// How many nodes stand exactly where earlier ones do: what is not welded there is no neighbour.
 pub(super) fn coincident_nodes(positions: &[Point]) -> usize {
-    // Adding 0 makes -0 the same as 0.
-    let mut places: Vec<[u64; 3]> =
-        positions.iter().map(|p| (*p + Point::ZERO).to_array().map(f64::to_bits)).collect();
-    parallel::sort(&mut places);
-    places.windows(2).filter(|pair| pair[0] == pair[1]).count()
+    first_of_same(positions).iter().zip(0..).filter(|&(&first, node)| first != node).count()
 }
 
 fn drop_unused_nodes(mesh: &mut HexMesh) {
