@@ -15,9 +15,8 @@
 //! Rules 1 and 2 alone give the least forest that holds the given one and obeys them. All are applied from the
 //! finest level to the coarsest, and again while anything changes.
 
-use std::ops::AddAssign;
-
 use std::collections::VecDeque;
+use std::ops::AddAssign;
 
 use super::HexForest;
 use super::octree::{HexLevel, Sides};

@@ -16,8 +16,9 @@ use std::sync::Mutex;
 use super::attempt::{Attempt, attempt};
 use super::input::boundary_surface;
 use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size};
-use super::plan::{Decided, HexPlan};
+use super::plan::{Decided, HexPlan, TOUCHES};
 use super::stage::{NO_ELEMENT, StageMesh, StageReport, StageResult};
+use crate::geometry::Point;
 use crate::mesh::HexMesh;
 use crate::optimize::BoundarySurface;
 use crate::{Monitor, Stage};
@@ -80,8 +81,8 @@ impl HexPlan<'_> {
                     Attempt::Conflict(hexes) => (hexes, None),
                     Attempt::Tangled { coarse, hexes } => (coarse, Some(hexes)),
                 };
-                if let Some(count) = tangled.filter(|_| self.options.growth == Growth::Refuse) {
-                    return Err(HexRefineError::Tangled(count));
+                if self.options.growth == Growth::Refuse {
+                    return Err(growth_refused(&made, &hexes, tangled.is_some()));
                 }
                 restarts += 1;
                 let more = self.refine_too(made.number, &elements_of(&made.mesh, &hexes), monitor)?;
@@ -169,6 +170,19 @@ impl Made {
             }
         }
         self.reports.truncate(self.number);
+    }
+}
+
+/// Hexes of the mesh would have to be refined, and nothing asks for it.
+fn growth_refused(made: &Made, hexes: &[u32], are_tangled: bool) -> HexRefineError {
+    let mesh = &made.mesh;
+    let centre =
+        |&h: &u32| mesh.hexes[h as usize].iter().map(|n| mesh.positions[n.index()]).sum::<Point>() / 8.0;
+    HexRefineError::GrowthRefused {
+        elements: hexes.len(),
+        level: made.number as u8,
+        reason: if are_tangled { "where transition hexes stay inside out" } else { TOUCHES },
+        near: hexes.first().map(centre).unwrap_or_default(),
     }
 }
 

@@ -19,6 +19,9 @@ use crate::{Monitor, Stage};
 
 const CLOSE: Stage = Stage("close");
 
+/// Why conflicts are refined.
+pub(super) const TOUCHES: &str = "where the interface cannot be separated";
+
 /// What is refined, what closing the trees has added, and what will come of it.
 #[derive(Debug)]
 pub struct HexPlan<'a> {
@@ -174,7 +177,7 @@ impl<'a> HexPlan<'a> {
             match self.foresee(&trees, monitor)? {
                 Ok(stages) => break stages,
                 Err((number, more)) => {
-                    self.may_grow(&trees, (number, &more), "where the interface touches itself")?;
+                    self.may_grow(&trees, (number, &more), TOUCHES)?;
                     self.added.conflicts += more.len();
                     trees.split(number, &more, monitor)?;
                 }

@@ -6,7 +6,7 @@ use hexmill::refine::hex::{Growth, HexOptions, HexPlan, HexRefineError, Method, 
 use hexmill::sizing::Region;
 
 use super::acceptance::block;
-use super::meshes::cubes;
+use super::meshes::{cubes, i_beam};
 
 const METHODS: [Method; 4] = [Method::One, Method::Two, Method::Three, Method::Auto];
 
@@ -60,6 +60,18 @@ fn growth_is_refused_with_the_place_if_that_is_wanted() {
     let odd = [block([1.0; 3], [4.0; 3], 1)];
     let error = refine_hexes(&cubes(5), &options(Method::Auto, Growth::Refuse, &odd), &Silent);
     assert!(matches!(error, Err(HexRefineError::GrowthRefused { elements: 98, level: 0, .. })), "{error:?}");
+}
+
+/// Along an inner ridge of the beam neither side can leave everywhere: that is seen when the pillow is made.
+#[test]
+fn growth_during_the_work_is_refused_too() {
+    let cells = [[2.0, 0.0, 4.0], [2.0, 1.0, 4.0], [2.0, 0.0, 5.0], [2.0, 1.0, 5.0], [1.0, 0.0, 5.0]];
+    let regions = cells.map(|at| block(at, at.map(|x| x + 1.0), 2));
+    let grown =
+        refine_hexes(&i_beam(), &options(Method::Two, Growth::Allow, &regions), &Silent).expect("a mesh");
+    assert!(grown.added.conflicts > 0);
+    let error = refine_hexes(&i_beam(), &options(Method::Two, Growth::Refuse, &regions), &Silent);
+    assert!(matches!(error, Err(HexRefineError::GrowthRefused { level: 1, .. })), "{error:?}");
 }
 
 /// Where nothing has to grow the mesh is the same, and nothing is refused.
