@@ -10,6 +10,7 @@ mod frame;
 mod gjk;
 mod grove;
 mod hull;
+pub(crate) mod lanes;
 mod nearest_triangle;
 mod quad_hull;
 mod solid;

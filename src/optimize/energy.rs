@@ -11,6 +11,9 @@
 //!
 //! f^3 and r^2 are rational in chi, so no root of third degree and no logarithm is taken.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4, mask64x4};
+
 use super::symmetric::Symmetric;
 use crate::geometry::Point;
 
@@ -31,34 +34,45 @@ pub(crate) struct Expansion {
     pub(crate) hessian: Symmetric,
 }
 
-/// What the energy of a corner depends on.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Corner {
-    pub(crate) determinant: f64,
+/// What the energy of a corner depends on, of four corners.
+#[derive(Clone, Copy)]
+pub(crate) struct Corners<S: Simd> {
+    pub(crate) determinant: f64x4<S>,
     /// The mean of the squared edges.
-    pub(crate) mean_square: f64,
+    pub(crate) mean_square: f64x4<S>,
     /// The product of the squared edges.
-    pub(crate) product: f64,
-    /// The square of chi's eps.
-    pub(crate) eps_squared: f64,
+    pub(crate) product: f64x4<S>,
+    /// The square of chi's eps, where there is one.
+    pub(crate) eps_squared: Option<f64x4<S>>,
 }
 
-/// The energy of a corner, and what its derivatives are made of.
+/// The energy of corners. Where it is infinite, at inverted corners without eps, the numbers say nothing.
+#[derive(Clone, Copy)]
+pub(crate) struct Energy<S: Simd> {
+    /// Is the energy finite?
+    pub(crate) is_finite: mask64x4<S>,
+    /// The parts that weigh shape and angles.
+    pub(crate) shape: f64x4<S>,
+    pub(crate) angles: f64x4<S>,
+    /// r^2.
+    pub(crate) angles_squared: f64x4<S>,
+    /// One over the root of chi.
+    over_root: f64x4<S>,
+    determinant: f64x4<S>,
+}
+
+/// What the derivatives of energies are made of.
 ///
 /// Of ln f^3 = 3 ln q - 2 ln chi and ln r^2 = ln(product) - 2 ln chi the derivatives are short; those of
 /// E = exp(n u) are n E u' and n E (u'' + n u' u'^T).
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Factors {
-    /// The energy.
-    pub(crate) value: f64,
+#[derive(Clone, Copy)]
+pub(crate) struct Factors<S: Simd> {
     /// n times the part of the energy that weighs shape, and n times the one that weighs angles.
-    pub(crate) shape: f64,
-    pub(crate) angles: f64,
+    pub(crate) shape: f64x4<S>,
+    pub(crate) angles: f64x4<S>,
     /// The first and the second derivative of -2 ln chi by the determinant.
-    pub(crate) slope: f64,
-    pub(crate) bend: f64,
-    /// r^2.
-    pub(crate) angles_squared: f64,
+    pub(crate) slope: f64x4<S>,
+    pub(crate) bend: f64x4<S>,
 }
 
 impl Weights {
@@ -68,65 +82,56 @@ impl Weights {
     }
 }
 
-impl Corner {
-    /// chi of the determinant, and its root. Without eps they are the determinant and its size, to the last bit.
-    #[inline]
-    fn chi(self) -> (f64, f64) {
-        if self.eps_squared == 0.0 {
-            return (self.determinant, self.determinant.abs());
-        }
-        let root = (self.determinant * self.determinant + self.eps_squared).sqrt();
-        ((self.determinant + root) / 2.0, root)
-    }
-
-    /// The energy, and r^2; both infinite for an inverted corner without eps.
-    #[inline]
-    pub(crate) fn energy(self, weights: Weights) -> (f64, f64) {
-        let (chi, _) = self.chi();
-        if chi.is_nan() || chi <= 0.0 {
-            return (f64::INFINITY, f64::INFINITY);
-        }
-        let inverse = 1.0 / (chi * chi);
+impl<S: Simd> Corners<S> {
+    /// The energies.
+    #[inline(always)]
+    pub(crate) fn energy(self, weights: Weights) -> Energy<S> {
+        let determinant = self.determinant;
+        // Without eps chi and its root are the determinant and its size.
+        let (chi, root) = match self.eps_squared {
+            None => (determinant, determinant),
+            Some(eps_squared) => {
+                let root = (determinant * determinant + eps_squared).sqrt();
+                ((determinant + root) * 0.5, root)
+            }
+        };
+        let (inverse, over_root) = match self.eps_squared {
+            None => {
+                let over = 1.0 / chi;
+                (over * over, over)
+            }
+            Some(_) => (1.0 / (chi * chi), 1.0 / root),
+        };
         let angles_squared = self.product * inverse;
-        let [shape, angles] = self.parts(weights, inverse, angles_squared);
-        (shape + angles, angles_squared)
-    }
-
-    /// The energy and its derivatives' factors; `None` where the energy is infinite.
-    #[inline]
-    pub(crate) fn factors(self, weights: Weights) -> Option<Factors> {
-        let (chi, root) = self.chi();
-        if chi.is_nan() || chi <= 0.0 {
-            return None;
-        }
-        let inverse = 1.0 / (chi * chi);
-        let angles_squared = self.product * inverse;
-        let [shape, angles] = self.parts(weights, inverse, angles_squared);
-        let w = 1.0 / root;
-        Some(Factors {
-            value: shape + angles,
-            shape: weights.power() * shape,
-            angles: weights.power() * angles,
-            slope: -2.0 * w,
-            bend: 2.0 * self.determinant * w * w * w,
-            angles_squared,
-        })
-    }
-
-    /// The parts of the energy that weigh shape and angles.
-    #[inline]
-    fn parts(self, weights: Weights, inverse: f64, angles_squared: f64) -> [f64; 2] {
         let q = self.mean_square;
-        [
-            (1.0 - weights.mu) * doubled(q * q * q * inverse, weights.doublings),
-            weights.mu * doubled(angles_squared, weights.doublings),
-        ]
+        Energy {
+            is_finite: chi.simd_gt(0.0),
+            shape: doubled(q * q * q * inverse, weights.doublings) * (1.0 - weights.mu),
+            angles: doubled(angles_squared, weights.doublings) * weights.mu,
+            angles_squared,
+            over_root,
+            determinant,
+        }
+    }
+}
+
+impl<S: Simd> Energy<S> {
+    /// What the derivatives are made of.
+    #[inline(always)]
+    pub(crate) fn factors(self, weights: Weights) -> Factors<S> {
+        let w = self.over_root;
+        Factors {
+            shape: self.shape * weights.power(),
+            angles: self.angles * weights.power(),
+            slope: w * -2.0,
+            bend: self.determinant * 2.0 * (w * w * w),
+        }
     }
 }
 
 /// `x` to the power of two to the `doublings`.
-#[inline]
-fn doubled(x: f64, doublings: u32) -> f64 {
+#[inline(always)]
+fn doubled<S: Simd>(x: f64x4<S>, doublings: u32) -> f64x4<S> {
     let square = x * x;
     match doublings {
         0 => x,
@@ -139,30 +144,53 @@ fn doubled(x: f64, doublings: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::lanes::level;
+    use fearless_simd::dispatch;
 
-    fn cube(edge: f64) -> Corner {
-        let square = edge * edge;
-        let (determinant, product) = (square * edge, square * square * square);
-        Corner { determinant, mean_square: square, product, eps_squared: 0.0 }
+    /// The energy of a cube's corner with so long edges, r^2 and n times both parts, infinite where it is.
+    fn cube(edge: f64, determinant: f64, eps_squared: Option<f64>, weights: Weights) -> [f64; 3] {
+        #[inline(always)]
+        fn corner<S: Simd>(
+            simd: S,
+            edge: f64,
+            determinant: f64,
+            eps: Option<f64>,
+            weights: Weights,
+        ) -> [f64; 3] {
+            let square = edge * edge;
+            let all = |x: f64| f64x4::splat(simd, x);
+            let (mean_square, product) = (all(square), all(square * square * square));
+            let eps_squared = eps.map(all);
+            let energy =
+                Corners { determinant: all(determinant), mean_square, product, eps_squared }.energy(weights);
+            if !energy.is_finite.all_true() {
+                return [f64::INFINITY; 3];
+            }
+            let factors = energy.factors(weights);
+            let [all, angles, derived] =
+                [energy.shape + energy.angles, energy.angles_squared, factors.shape + factors.angles];
+            [all[3], angles[2], derived[1]]
+        }
+        dispatch!(level(), simd => corner(simd, edge, determinant, eps_squared, weights))
     }
 
     #[test]
     fn a_cube_corner_has_energy_one() {
         for (doublings, mu) in [(0, 0.0), (2, 0.4), (4, 1.0)] {
-            let (energy, angles) = cube(3.0).energy(Weights { doublings, mu });
+            let weights = Weights { doublings, mu };
+            let [energy, angles, derived] = cube(3.0, 27.0, None, weights);
             assert!((energy - 1.0).abs() < 1e-12 && (angles - 1.0).abs() < 1e-12, "{energy}");
+            assert!((derived - weights.power()).abs() < 1e-12 * derived, "{derived}");
         }
     }
 
     #[test]
     fn an_inverted_corner_has_a_finite_energy_with_eps_alone() {
         let weights = Weights { doublings: 0, mu: 0.0 };
-        let inverted = Corner { determinant: -1.0, ..cube(1.0) };
-        assert_eq!(inverted.energy(weights), (f64::INFINITY, f64::INFINITY));
-        assert!(inverted.factors(weights).is_none());
-        let regular = Corner { eps_squared: 0.01, ..inverted };
-        let (energy, _) = regular.energy(weights);
+        assert_eq!(cube(1.0, -1.0, None, weights), [f64::INFINITY; 3]);
+        assert_eq!(cube(1.0, 0.0, None, weights), [f64::INFINITY; 3]);
+        let [energy, _, derived] = cube(1.0, -1.0, Some(0.01), weights);
         assert!(energy.is_finite() && energy > 100.0, "{energy}");
-        assert!((regular.factors(weights).unwrap().value - energy).abs() < 1e-12 * energy);
+        assert!((derived - energy).abs() < 1e-12 * energy);
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
-use crate::mesh::quality::{Certainty, is_positive, scaled_jacobian};
+use crate::mesh::quality::{Certainty, four, is_positive};
 use crate::mesh::{HexId, NodeId};
 use crate::monitor::batches;
 use crate::{Cancelled, Monitor, Silent, parallel};
@@ -94,8 +94,7 @@ impl Problem {
             around,
         };
         problem.colours = problem.colour(monitor)?;
-        problem.positive =
-            parallel::try_collect(problem.cells.len(), monitor, |cell| problem.is_positive(cell))?;
+        problem.positive = problem.are_positive(monitor)?;
         Ok(problem)
     }
 
@@ -131,7 +130,7 @@ impl Problem {
 
     /// Asks every cell again whether it is positive.
     pub(crate) fn find_positive(&mut self) {
-        self.positive = parallel::collect(self.cells.len(), |cell| self.is_positive(cell));
+        self.positive = self.are_positive(&Silent).expect("nobody stops it");
     }
 
     /// Is the cell positive in all of its inside, where its nodes are now?
@@ -139,9 +138,13 @@ impl Problem {
         is_positive(&self.corners(cell)) == Certainty::Positive
     }
 
+    fn are_positive(&self, monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
+        four::are_positive(self.cells.len(), monitor, |cell| self.corners(cell))
+    }
+
     /// The scaled Jacobian of each cell.
     pub(crate) fn scaled_jacobians(&self, monitor: &dyn Monitor) -> Result<Vec<f64>, Cancelled> {
-        parallel::try_collect(self.cells.len(), monitor, |cell| scaled_jacobian(&self.corners(cell)))
+        four::scaled_jacobians(self.cells.len(), monitor, |cell| self.corners(cell))
     }
 
     /// The cells around the nodes, each once, ascending.

@@ -12,8 +12,7 @@ use super::guide::Guide;
 use super::problem::Problem;
 use super::sweep::{ASLEEP, Moved, Rules, sweep};
 use super::{OptimizeOptions, SMOOTHING};
-use crate::mesh::quality::scaled_jacobian;
-use crate::parallel;
+use crate::mesh::quality::four;
 use crate::{Cancelled, Monitor};
 
 /// Rounds with one energy.
@@ -69,13 +68,15 @@ pub(crate) fn smooth(
             for round in 0..sweeps {
                 monitor.checkpoint(SMOOTHING, (first + round) as f64 / total)?;
                 let worst = jacobians.iter().copied().fold(f64::INFINITY, f64::min);
-                let rules = Rules { guide, weights, eps: 0.0, floor: Some(worst), asleep: ASLEEP };
+                // Nobody looks at who is awake after the last round.
+                let asleep = if round + 1 < sweeps { ASLEEP } else { f64::INFINITY };
+                let rules = Rules { guide, weights, eps: 0.0, floor: Some(worst), asleep };
                 let round = |problem: &mut Problem, awake: &mut [bool]| {
                     sweep(problem, rules, &allowed, awake, monitor)
                 };
                 let (changed, moved) = keep_positive(problem, &mut awake, monitor, round)?;
-                let jacobian = |k: usize| scaled_jacobian(&problem.corners(changed[k] as usize));
-                let renewed = parallel::try_collect(changed.len(), monitor, jacobian)?;
+                let corners = |k: usize| problem.corners(changed[k] as usize);
+                let renewed = four::scaled_jacobians(changed.len(), monitor, corners)?;
                 changed.iter().zip(renewed).for_each(|(&cell, jacobian)| jacobians[cell as usize] = jacobian);
                 done += 1;
                 if moved.far == 0 {
@@ -111,7 +112,7 @@ pub(crate) fn keep_positive(
         let moved = round(problem, awake)?;
         let changed = problem.cells_around_within(&moved.nodes, monitor)?;
         let is_positive =
-            parallel::try_collect(changed.len(), monitor, |k| problem.is_positive(changed[k] as usize))?;
+            four::are_positive(changed.len(), monitor, |k| problem.corners(changed[k] as usize))?;
         let now = || changed.iter().map(|&cell| cell as usize).zip(is_positive.iter().copied());
         let lost: Vec<usize> =
             now().filter(|&(cell, is)| problem.positive[cell] && !is).map(|(cell, _)| cell).collect();

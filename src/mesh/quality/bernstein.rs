@@ -10,10 +10,15 @@
 //! As Johnen, Weill, Remacle, *Robust and efficient validation of the linear hexahedral element* (2017), with the
 //! coefficients in closed form.
 
+use std::array::from_fn;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, f64x4, mask64x4};
+
 use crate::geometry::Point;
+use crate::geometry::lanes::{LANES, Number, Vector, Vectors, level};
 use crate::mesh::numbering::hex::CORNER_AT;
 
 /// Parts that are looked at before a hex is given up as undecided.
@@ -55,8 +60,8 @@ pub struct JacobianBound {
 /// ```
 pub fn is_positive(corners: &[Point; 8]) -> Certainty {
     let edges = Edges::of(corners);
-    let whole = Part::of_edges(&edges);
-    let zero = ROUNDING * edges.magnitude();
+    let whole = Part(coefficients(&edges, 0.0));
+    let zero = edges.magnitude() * ROUNDING;
     // One answer for all, so that no branch keeps the numbers from being compared side by side.
     if whole.0.iter().fold(true, |all, &c| all & (c > zero)) {
         return Certainty::Positive;
@@ -71,6 +76,24 @@ pub fn is_positive(corners: &[Point; 8]) -> Certainty {
         queue.extend(part.halves().into_iter().filter(|half| half.least() <= zero));
     }
     Certainty::Undecided
+}
+
+/// Is the Jacobian determinant of each of four hexes positive everywhere?
+pub(super) fn are_positive(hexes: &[[Point; 8]; LANES]) -> [bool; LANES] {
+    let sure = dispatch!(level(), simd => are_surely_positive(simd, hexes));
+    from_fn(|lane| sure[lane] || is_positive(&hexes[lane]) == Certainty::Positive)
+}
+
+/// Which of four hexes have positive coefficients alone?
+#[inline(always)]
+fn are_surely_positive<S: Simd>(simd: S, hexes: &[[Point; 8]; LANES]) -> [bool; LANES] {
+    let edges = Edges::of(&Vectors::corners(simd, hexes));
+    let zero = edges.magnitude() * ROUNDING;
+    let mut all = mask64x4::splat(simd, true);
+    for coefficient in coefficients(&edges, f64x4::splat(simd, 0.0)) {
+        all &= coefficient.simd_gt(zero);
+    }
+    [all.test(0), all.test(1), all.test(2), all.test(3)]
 }
 
 /// Encloses the least value of the Jacobian determinant of the trilinear hex, to a thousandth of its greatest
@@ -93,16 +116,17 @@ pub fn min_jacobian_bound(corners: &[Point; 8]) -> JacobianBound {
 }
 
 /// The edges of a hex by direction: `x[j][k]` at y = j, z = k; `y[i][k]`; `z[i][j]`.
-struct Edges {
-    x: [[Point; 2]; 2],
-    y: [[Point; 2]; 2],
-    z: [[Point; 2]; 2],
+struct Edges<V> {
+    x: [[V; 2]; 2],
+    y: [[V; 2]; 2],
+    z: [[V; 2]; 2],
 }
 
-impl Edges {
-    fn of(corners: &[Point; 8]) -> Self {
+impl<V: Vector> Edges<V> {
+    #[inline(always)]
+    fn of(corners: &[V; 8]) -> Self {
         let at = |i: usize, j: usize, k: usize| corners[usize::from(CORNER_AT[i + 2 * j + 4 * k])];
-        let none = [[Point::ZERO; 2]; 2];
+        let none = [[corners[0]; 2]; 2];
         let mut edges = Self { x: none, y: none, z: none };
         for a in 0..2 {
             for b in 0..2 {
@@ -115,12 +139,42 @@ impl Edges {
     }
 
     /// The product of the longest edges in the three directions.
-    fn magnitude(&self) -> f64 {
-        let longest = |edges: &[[Point; 2]; 2]| {
-            edges.as_flattened().iter().fold(0.0, |most: f64, e| most.max(e.length_squared())).sqrt()
-        };
+    #[inline(always)]
+    fn magnitude(&self) -> V::Number {
         longest(&self.x) * longest(&self.y) * longest(&self.z)
     }
+}
+
+/// The length of the longest of four edges.
+#[inline(always)]
+fn longest<V: Vector>([[a, b], [c, d]]: &[[V; 2]; 2]) -> V::Number {
+    let [a, b, c, d] = [a.dot(*a), b.dot(*b), c.dot(*c), d.dot(*d)];
+    a.greater(b).greater(c).greater(d).root()
+}
+
+/// The coefficients over all of a hex, in the order of [`Part`]. Each pair of linear factors in one parameter multiplies to
+/// a quadratic whose middle coefficient is the mean of two products.
+#[inline(always)]
+fn coefficients<V: Vector>(edges: &Edges<V>, zero: V::Number) -> [V::Number; 27] {
+    let mut sums = [zero; 27];
+    for yi in 0..2 {
+        for yk in 0..2 {
+            for zi in 0..2 {
+                for zj in 0..2 {
+                    let area = edges.y[yi][yk].cross(edges.z[zi][zj]);
+                    for (xj, row) in edges.x.iter().enumerate() {
+                        for (xk, edge) in row.iter().enumerate() {
+                            sums[yi + zi + 3 * (xj + zj) + 9 * (xk + yk)] += edge.dot(area);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    for (sum, share) in sums.iter_mut().zip(SHARES) {
+        *sum = *sum * share;
+    }
+    sums
 }
 
 /// A quadratic in x, y and z over a part of the hex: the coefficient at i, j, k stands at i + 3j + 9k.
@@ -146,31 +200,7 @@ const STRIDES: [usize; 3] = [1, 3, 9];
 
 impl Part {
     fn of(corners: &[Point; 8]) -> Self {
-        Self::of_edges(&Edges::of(corners))
-    }
-
-    /// Each pair of linear factors in one parameter multiplies to a quadratic whose middle coefficient is the mean
-    /// of two products.
-    fn of_edges(edges: &Edges) -> Self {
-        let mut sums = [0.0; 27];
-        for yi in 0..2 {
-            for yk in 0..2 {
-                for zi in 0..2 {
-                    for zj in 0..2 {
-                        let area = edges.y[yi][yk].cross(edges.z[zi][zj]);
-                        for (xj, row) in edges.x.iter().enumerate() {
-                            for (xk, edge) in row.iter().enumerate() {
-                                sums[yi + zi + 3 * (xj + zj) + 9 * (xk + yk)] += edge.dot(area);
-                            }
-                        }
-                    }
-                }
-            }
-        }
-        for (sum, share) in sums.iter_mut().zip(SHARES) {
-            *sum *= share;
-        }
-        Self(sums)
+        Self(coefficients(&Edges::of(corners), 0.0))
     }
 
     /// The least coefficient, or NaN where there is one.

@@ -11,11 +11,14 @@
 //! Verdict also asks the hex's centre for its scaled Jacobian; here [`is_positive`] answers for all of the inside.
 //! A hex with an edge of no length has scaled Jacobian 0 or less and the largest aspect that f32 holds.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, f64x4};
 use serde::Serialize;
 
 use super::bernstein::{Certainty, is_positive};
 use super::{Distribution, Summary};
 use crate::geometry::Point;
+use crate::geometry::lanes::{LANES, Vector, Vectors, level};
 use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES, NEIGHBOURS};
 use crate::mesh::{HexMesh, hex_volume};
 use crate::parallel;
@@ -62,19 +65,43 @@ pub fn scaled_jacobian(corners: &[Point; 8]) -> f64 {
     corner_scaled_jacobians(corners).into_iter().fold(f64::INFINITY, f64::min)
 }
 
+/// The least scaled Jacobians of four hexes.
+pub(super) fn scaled_jacobians(hexes: &[[Point; 8]; LANES]) -> [f64; LANES] {
+    #[inline(always)]
+    fn least<S: Simd>(simd: S, hexes: &[[Point; 8]; LANES]) -> [f64; LANES] {
+        let jacobians = at_corners(&Vectors::corners(simd, hexes), f64x4::splat(simd, 0.0));
+        jacobians
+            .into_iter()
+            .fold(f64x4::splat(simd, f64::INFINITY), |least, jacobian| least.min(jacobian))
+            .to_array()
+    }
+    dispatch!(level(), simd => least(simd, hexes))
+}
+
 /// The determinant of the unit vectors along the three edges of each corner, from -1 to 1; 0 at the ends of an edge
 /// of no length.
 pub fn corner_scaled_jacobians(corners: &[Point; 8]) -> [f64; 8] {
-    let mut units = [Point::ZERO; 12];
+    at_corners(corners, 0.0)
+}
+
+#[inline(always)]
+fn at_corners<V: Vector>(corners: &[V; 8], zero: V::Number) -> [V::Number; 8] {
+    let mut units = [corners[0]; 12];
     for (unit, [low, high]) in units.iter_mut().zip(EDGES) {
         *unit = (corners[usize::from(high)] - corners[usize::from(low)]).normalize_or_zero();
     }
-    let mut jacobians = [0.0; 8];
-    for (jacobian, spokes) in jacobians.iter_mut().zip(SPOKES) {
-        let [a, b, c] = spokes.map(|(edge, sign)| units[usize::from(edge)] * sign);
+    let mut jacobians = [zero; 8];
+    for (jacobian, [a, b, c]) in jacobians.iter_mut().zip(SPOKES) {
+        let [a, b, c] = [along(&units, a), along(&units, b), along(&units, c)];
         *jacobian = a.dot(b.cross(c));
     }
     jacobians
+}
+
+/// An edge's unit vector, away from a corner.
+#[inline(always)]
+fn along<V: Vector>(units: &[V; 12], (edge, sign): (u8, f64)) -> V {
+    units[usize::from(edge)] * sign
 }
 
 /// The edges at each corner in the order of [`NEIGHBOURS`], with -1 for those that arrive there.

@@ -4,6 +4,7 @@
 //! 2007-1751). That a hex is positive in its inside too is shown by bounds on its Jacobian ([`is_positive`]).
 
 mod bernstein;
+pub(crate) mod four;
 mod hex;
 mod quad;
 mod second_order;

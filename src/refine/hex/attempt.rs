@@ -5,6 +5,7 @@ use super::options::{HexRefineError, Method};
 use super::stage::{StageError, StageMesh, StageResult, opened_stage};
 use crate::Monitor;
 use crate::mesh::HexId;
+use crate::mesh::topology::HexFaces;
 use crate::optimize::{BoundarySurface, OptimizeOptions};
 
 /// How a stage ended.
@@ -40,15 +41,17 @@ pub(super) fn attempt(
         return Ok(Attempt::Made(Box::new(next)));
     }
     let mut local = Local::around(&next, monitor)?;
-    let is_inside = next.mesh.materials.is_empty() && local.is_inside(monitor)?;
+    let faces = local.faces(monitor)?;
+    let is_inside = next.mesh.materials.is_empty() && local.is_inside(&faces);
     let options = smoothing(method, is_inside);
-    let mut tangled = relax(&next, &mut local, surface, &options, monitor)?;
+    let mut tangled = relax(&next, (&mut local, faces), surface, &options, monitor)?;
     for rings in WIDER {
         if tangled.is_empty() {
             break;
         }
         local = Local::wider(&next, &tangled, rings, monitor)?;
-        tangled = relax(&next, &mut local, surface, &options, monitor)?;
+        let faces = local.faces(monitor)?;
+        tangled = relax(&next, (&mut local, faces), surface, &options, monitor)?;
     }
     local.write_back(&mut next.mesh.positions);
     if tangled.is_empty() {
@@ -61,8 +64,8 @@ pub(super) fn attempt(
 fn smoothing(method: Method, is_inside: bool) -> OptimizeOptions {
     let all = OptimizeOptions::default();
     match method {
-        Method::One => OptimizeOptions { smooth_sweeps: 3, worst_sweeps: 4, ..all },
-        _ if is_inside => OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 6, ..all },
+        Method::One => OptimizeOptions { smooth_sweeps: 2, worst_sweeps: 4, ..all },
+        _ if is_inside => OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 4, ..all },
         _ => all,
     }
 }
@@ -70,12 +73,12 @@ fn smoothing(method: Method, is_inside: bool) -> OptimizeOptions {
 /// Untangles and smooths some hexes of a stage. Those that stay inverted.
 fn relax(
     stage: &StageResult,
-    local: &mut Local,
+    (local, faces): (&mut Local, HexFaces),
     surface: &BoundarySurface,
     options: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<Vec<HexId>, HexRefineError> {
-    let constraints = local.constraints(&stage.mesh, surface, monitor)?;
+    let constraints = local.constraints(faces, &stage.mesh, surface, monitor)?;
     let mut report = local.optimize(&constraints, options, monitor)?;
     if report.off_boundary > STRAYED * local.shortest_edge() {
         // A node has passed the end of its patch: it lies in the plane of that, but no more on the boundary.

@@ -97,15 +97,20 @@ impl Local {
         })
     }
 
+    /// The faces of the hexes.
+    pub(super) fn faces(&self, monitor: &dyn Monitor) -> Result<HexFaces, Cancelled> {
+        HexFaces::within(self.positions.len(), &self.hexes, monitor)
+    }
+
     /// Where the nodes may go. Only what is said of movable ones counts: a boundary face with such a node is known for
     /// one, and one between materials too, since all hexes there are at hand.
     pub(super) fn constraints<'a>(
         &self,
+        faces: HexFaces,
         mesh: &StageMesh,
         surface: &'a BoundarySurface,
         monitor: &dyn Monitor,
     ) -> Result<Constraints<'a>, Cancelled> {
-        let faces = HexFaces::within(self.positions.len(), &self.hexes, monitor)?;
         let has_movable = |nodes: &[NodeId; 4]| nodes.iter().any(|n| self.movable[n.index()]);
         let in_mesh = |side: Side| self.hex_ids[hex_of(side).index()];
         let kind = |f: FaceId| match *faces.sides(f) {
@@ -144,10 +149,9 @@ impl Local {
     }
 
     /// Is no movable node on the boundary? All hexes at such a node are here, so that its faces show it.
-    pub(super) fn is_inside(&self, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
-        let faces = HexFaces::within(self.positions.len(), &self.hexes, monitor)?;
+    pub(super) fn is_inside(&self, faces: &HexFaces) -> bool {
         let is_movable = |f: FaceId| faces.nodes[f.index()].iter().any(|n| self.movable[n.index()]);
-        Ok(!faces.ids().any(|f| faces.is_boundary(f) && is_movable(f)))
+        !faces.ids().any(|f| faces.is_boundary(f) && is_movable(f))
     }
 
     /// The length of the shortest edge.

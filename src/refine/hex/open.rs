@@ -23,7 +23,7 @@ pub(super) fn open(pillow: &mut Pillow, monitor: &dyn Monitor) -> Result<(), Can
     let all: Vec<[NodeId; 8]> = hexes.iter().copied().chain(layer.iter().map(|hex| hex.hex)).collect();
     let mut local = Local::at((positions, &all), &moves, monitor)?;
     drop(all);
-    if local.is_inside(monitor)? {
+    if local.is_inside(&local.faces(monitor)?) {
         local.optimize(&Constraints::none(local.node_count()), &OPTIONS, monitor)?;
         local.write_back(positions);
     }

@@ -1,0 +1,209 @@
+//! Four numbers and four vectors side by side, with the instructions of the processor at hand. Each lane is computed as
+//! one number would be, and nothing is fused, so that all processors give the same bits.
+
+use std::ops::{Add, AddAssign, Mul, Sub};
+use std::sync::OnceLock;
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, f64x4};
+
+use super::Point;
+
+/// How many stand side by side.
+pub(crate) const LANES: usize = 4;
+
+/// Numbers in store.
+pub(crate) type Row = [f64; LANES];
+
+/// Vectors in store: all x, then all y, then all z.
+pub(crate) type Rows = [Row; 3];
+
+/// What the processor can do.
+pub(crate) fn level() -> Level {
+    static LEVEL: OnceLock<Level> = OnceLock::new();
+    *LEVEL.get_or_init(Level::new)
+}
+
+/// The sum, in an order that is the same everywhere.
+#[inline(always)]
+pub(crate) fn sum<S: Simd>(lanes: f64x4<S>) -> f64 {
+    let [a, b, c, d] = lanes.to_array();
+    (a + b) + (c + d)
+}
+
+/// One number, or four side by side: what is computed from vectors is written once for both.
+pub(crate) trait Number:
+    Copy + Add<Output = Self> + AddAssign + Mul<Output = Self> + Mul<f64, Output = Self>
+{
+    fn greater(self, other: Self) -> Self;
+    fn root(self) -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        self.max(other)
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+}
+
+impl<S: Simd> Number for f64x4<S> {
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        self.max(other)
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+}
+
+/// One vector, or four side by side.
+pub(crate) trait Vector: Copy + Sub<Output = Self> + Mul<f64, Output = Self> {
+    type Number: Number;
+
+    fn dot(self, other: Self) -> Self::Number;
+    fn cross(self, other: Self) -> Self;
+    /// Of length one; zero where it has none.
+    fn normalize_or_zero(self) -> Self;
+}
+
+impl Vector for Point {
+    type Number = f64;
+
+    #[inline(always)]
+    fn dot(self, other: Self) -> f64 {
+        self.dot(other)
+    }
+
+    #[inline(always)]
+    fn cross(self, other: Self) -> Self {
+        self.cross(other)
+    }
+
+    #[inline(always)]
+    fn normalize_or_zero(self) -> Self {
+        self.normalize_or_zero()
+    }
+}
+
+/// Four vectors.
+#[derive(Clone, Copy)]
+pub(crate) struct Vectors<S: Simd> {
+    pub(crate) x: f64x4<S>,
+    pub(crate) y: f64x4<S>,
+    pub(crate) z: f64x4<S>,
+}
+
+impl<S: Simd> Vector for Vectors<S> {
+    type Number = f64x4<S>;
+
+    #[inline(always)]
+    fn dot(self, other: Self) -> f64x4<S> {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    #[inline(always)]
+    fn cross(self, other: Self) -> Self {
+        Self {
+            x: self.y * other.z - other.y * self.z,
+            y: self.z * other.x - other.z * self.x,
+            z: self.x * other.y - other.x * self.y,
+        }
+    }
+
+    #[inline(always)]
+    fn normalize_or_zero(self) -> Self {
+        let over = 1.0 / self.dot(self).sqrt();
+        let zero = f64x4::splat(over.simd, 0.0);
+        let over = (over.simd_gt(0.0) & over.simd_lt(f64::INFINITY)).select(over, zero);
+        self * over
+    }
+}
+
+impl<S: Simd> Vectors<S> {
+    #[inline(always)]
+    pub(crate) fn load(simd: S, [x, y, z]: &Rows) -> Self {
+        Self {
+            x: f64x4::load_array_ref(simd, x),
+            y: f64x4::load_array_ref(simd, y),
+            z: f64x4::load_array_ref(simd, z),
+        }
+    }
+
+    /// The corners of four hexes.
+    #[inline(always)]
+    pub(crate) fn corners(simd: S, hexes: &[[Point; 8]; LANES]) -> [Self; 8] {
+        let mut corners = [Self::splat(simd, Point::ZERO); 8];
+        for (k, corner) in corners.iter_mut().enumerate() {
+            let [a, b, c, d] = [hexes[0][k], hexes[1][k], hexes[2][k], hexes[3][k]];
+            *corner = Self::load(simd, &[[a.x, b.x, c.x, d.x], [a.y, b.y, c.y, d.y], [a.z, b.z, c.z, d.z]]);
+        }
+        corners
+    }
+
+    #[inline(always)]
+    pub(crate) fn store(self) -> Rows {
+        [self.x.to_array(), self.y.to_array(), self.z.to_array()]
+    }
+
+    #[inline(always)]
+    pub(crate) fn splat(simd: S, v: Point) -> Self {
+        Self { x: f64x4::splat(simd, v.x), y: f64x4::splat(simd, v.y), z: f64x4::splat(simd, v.z) }
+    }
+
+    #[inline(always)]
+    pub(crate) fn length_squared(self) -> f64x4<S> {
+        self.dot(self)
+    }
+
+    /// The sum of the four.
+    #[inline(always)]
+    pub(crate) fn sum(self) -> Point {
+        Point::new(sum(self.x), sum(self.y), sum(self.z))
+    }
+}
+
+impl<S: Simd> Add for Vectors<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+    }
+}
+
+impl<S: Simd> AddAssign for Vectors<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<S: Simd> Sub for Vectors<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+    }
+}
+
+impl<S: Simd> Mul<f64x4<S>> for Vectors<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64x4<S>) -> Self {
+        Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}
+
+impl<S: Simd> Mul<f64> for Vectors<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}
