@@ -23,8 +23,11 @@ fn grid(n: u32) -> HexMesh {
 /// balances.
 fn shell(input: &HexMesh, levels: usize) -> HexForest {
     let side = input.positions[input.positions.len() - 1].x;
-    let mut forest = HexForest::refined_once(input);
+    let all: Vec<u32> = (0..input.hexes.len() as u32).collect();
+    let mut forest = HexForest::new(input);
+    forest.split_base(&all, &Silent).expect("nobody stops it");
     for depth in 0..levels {
+        forest.make(depth, &Silent).expect("nobody stops it");
         let passes = |element: &[NodeId; 8]| {
             let outside =
                 |n: &NodeId| (forest.positions[n.index()] / side).distance(Point::splat(0.5)) > 0.35;
@@ -33,9 +36,10 @@ fn shell(input: &HexMesh, levels: usize) -> HexForest {
         };
         let elements = forest.levels[depth].elements.par_iter().enumerate();
         let marked: Vec<u32> = elements.filter(|(_, e)| passes(e)).map(|(k, _)| k as u32).collect();
-        forest.split(depth, &marked);
+        forest.split(depth, &marked, &Silent).expect("nobody stops it");
     }
     forest.close(None, u64::MAX, &Silent).expect("nobody stops it");
+    forest.make(levels, &Silent).expect("nobody stops it");
     forest
 }
 

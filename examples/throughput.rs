@@ -84,9 +84,9 @@ struct Clock(Mutex<(Option<Instant>, Duration)>);
 impl Monitor for Clock {
     fn progress(&self, stage: Stage, fraction: f64) {
         let Ok(mut clock) = self.0.lock() else { return };
-        let smooths = matches!(stage.0, "untangling" | "smoothing");
+        let smooths = matches!(stage.0, "opening" | "untangling" | "smoothing");
         match clock.0 {
-            Some(since) if !smooths || fraction >= 1.0 && stage.0 == "smoothing" => {
+            Some(since) if !smooths || fraction >= 1.0 && stage.0 != "untangling" => {
                 clock.1 += since.elapsed();
                 clock.0 = None;
             }

@@ -142,10 +142,10 @@ impl Closing<'_> {
     fn balance_base(&mut self) -> Result<usize, CloseError> {
         self.monitor.proceed()?;
         let base = &self.forest.base;
-        let coarse = (0..base.elements.len() as u32).filter(|&e| !base.is_refined[e as usize]);
+        let coarse = (0..base.len() as u32).filter(|&e| !base.is_refined[e as usize]);
         let needed: Vec<u32> = coarse.filter(|&e| self.wanted.at(0, &base.elements[e as usize])).collect();
         self.check_size(1, needed.len())?;
-        self.forest.split_base(&needed);
+        self.forest.split_base(&needed, self.monitor)?;
         Ok(needed.len())
     }
 
@@ -158,8 +158,10 @@ impl Closing<'_> {
             let elements = &level.elements[8 * k..8 * k + 8];
             refined(k) == 0 && elements.iter().any(|e| self.wanted.at(depth + 1, e))
         };
-        let families = level.elements.len() / 8;
+        let families = level.len() / 8;
         let halfway = parallel::try_filter(families, self.monitor, |k| !matches!(refined(k), 0 | 8))?;
+        // So the elements of the deepest level are not looked at: maybe they are not made.
+        let families = if self.wanted.deepest > depth + 1 { families } else { 0 };
         Ok((halfway, parallel::try_filter(families, self.monitor, is_needed)?))
     }
 
@@ -172,7 +174,7 @@ impl Closing<'_> {
             let elements = batch.iter().flat_map(|&k| 8 * k..8 * k + 8);
             let marked: Vec<u32> = elements.filter(|&e| !level.is_refined[e as usize]).collect();
             self.check_size(depth + 2, marked.len())?;
-            self.forest.split_within(depth, &marked, self.monitor)?;
+            self.forest.split(depth, &marked, self.monitor)?;
             count += marked.len();
         }
         self.monitor.proceed()?;
@@ -186,16 +188,23 @@ impl Closing<'_> {
 /// A coarser element with such a node has it in common with an ancestor, at its own level, of the doubly refined
 /// element, and that is doubly refined too. So it must be refined as well.
 #[derive(Default)]
-struct Wanted(Vec<u8>);
+struct Wanted {
+    of_node: Vec<u8>,
+    /// The greatest of these.
+    deepest: usize,
+}
 
 impl Wanted {
     /// Takes in the parents of `families` of `levels[depth]`, which are of level `depth`.
     fn add(&mut self, forest: &HexForest, depth: usize, families: &[u32]) {
-        self.0.resize(forest.positions.len(), 0);
+        self.of_node.resize(forest.positions.len(), 0);
+        if !families.is_empty() {
+            self.deepest = self.deepest.max(depth + 1);
+        }
         let parents = forest.parents(depth);
         for &k in families {
             for n in parents.elements[parents.refined[k as usize] as usize] {
-                let wanted = &mut self.0[n.index()];
+                let wanted = &mut self.of_node[n.index()];
                 *wanted = (*wanted).max(depth as u8 + 1);
             }
         }
@@ -203,7 +212,7 @@ impl Wanted {
 
     /// True if an element of `level` must be refined.
     fn at(&self, level: usize, element: &[NodeId; 8]) -> bool {
-        element.iter().any(|n| usize::from(self.0[n.index()]) > level)
+        element.iter().any(|n| usize::from(self.of_node[n.index()]) > level)
     }
 }
 

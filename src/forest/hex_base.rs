@@ -8,17 +8,6 @@ use crate::mesh::{EdgeId, FaceId, HexMesh};
 use crate::{Cancelled, Monitor, Silent, parallel};
 
 impl HexForest {
-    /// The forest of level 1: every hex of `input` refined once, so that elements `8r..8r + 8` are the children of
-    /// hex `r`.
-    ///
-    /// # Panics
-    /// As [`HexForest::new`].
-    pub fn refined_once(input: &HexMesh) -> Self {
-        let mut forest = Self::new(input);
-        forest.split_base(&(0..input.hexes.len() as u32).collect::<Vec<_>>());
-        forest
-    }
-
     /// The forest of level 0: the hexes of `input`, whose nodes keep their numbers.
     ///
     /// # Panics

@@ -18,13 +18,18 @@
 //! Edges and faces are inherited: a split edge has two halves; a split face has four quarters, and four edges
 //! inside it from its centre to the middles of its own; a split element has six edges inside it, from its centre to
 //! those of its faces, and twelve faces, one at the middle of each of its edges. Nothing is searched for or hashed.
+//!
+//! A split only notes what is refined. Elements and their nodes are made ([`HexForest::make`]) when something asks for
+//! them: those of the deepest level, seven in eight, often nobody does.
+
+use std::ops::Range;
 
 use super::heirs::inherit;
-use super::quadtree::{UNDIVIDED, append, center, midpoint};
+use super::quadtree::{UNDIVIDED, center, midpoint};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES_OF_FACE, FACE_ACROSS, apart};
 use crate::mesh::{EdgeId, FaceId, HexId, NodeId};
-use crate::{Cancelled, Monitor, Silent, parallel};
+use crate::{Cancelled, Monitor, parallel};
 
 /// What a node of an element is to the element's parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -50,7 +55,7 @@ impl NodeKind {
 /// The elements of one level.
 #[derive(Debug, Default)]
 pub struct HexLevel {
-    /// The eight nodes of each element.
+    /// The eight nodes of each element. Of the deepest level maybe not all of them are made.
     pub elements: Vec<[NodeId; 8]>,
     /// For each element that is refined, in the order in which they were: element `refined[k]` has the
     /// elements `8k..8k + 8` of the next level as its children.
@@ -126,6 +131,16 @@ impl HexLevel {
         Self { elements, is_refined, roots, sides, edges, faces, ..Self::default() }
     }
 
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.is_refined.len()
+    }
+
+    /// True if there are no elements.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// The coarse hex that each family of eight elements is part of.
     pub fn family_roots(&self) -> &[HexId] {
         &self.roots
@@ -199,7 +214,7 @@ impl HexForest {
     /// Number of elements that are not refined.
     pub fn leaf_count(&self) -> usize {
         let all = std::iter::once(&self.base).chain(&self.levels);
-        all.map(|l| l.elements.len() - l.refined.len()).sum()
+        all.map(|l| l.len() - l.refined.len()).sum()
     }
 
     /// The level above `levels[depth]`: its element `refined[k]` is the parent of family `k`.
@@ -208,70 +223,103 @@ impl HexForest {
     }
 
     /// Splits the hexes `marked` of the input, none of which is refined yet, into eight each.
-    pub fn split_base(&mut self, marked: &[u32]) {
-        refine(&mut self.positions, &mut self.base, &mut self.levels[0], marked);
-    }
-
-    /// Splits the elements `marked` of `levels[depth]`, none of which is refined yet, into eight each.
-    pub fn split(&mut self, depth: usize, marked: &[u32]) {
-        self.split_within(depth, marked, &Silent).expect("nobody stops it");
-    }
-
-    /// As [`HexForest::split`], told by a monitor when to stop.
     ///
     /// # Errors
     /// If the monitor stops it; then the forest is of no use any more.
-    pub fn split_within(
-        &mut self,
-        depth: usize,
-        marked: &[u32],
-        monitor: &dyn Monitor,
-    ) -> Result<(), Cancelled> {
+    pub fn split_base(&mut self, marked: &[u32], monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        split(&mut self.base, &mut self.levels[0], marked);
+        if self.levels.len() > 1 { self.make(0, monitor) } else { Ok(()) }
+    }
+
+    /// Splits the elements `marked` of `levels[depth]`, none of which is refined yet, into eight each.
+    ///
+    /// # Errors
+    /// If the monitor stops it; then the forest is of no use any more.
+    pub fn split(&mut self, depth: usize, marked: &[u32], monitor: &dyn Monitor) -> Result<(), Cancelled> {
         if marked.is_empty() {
             return Ok(());
         }
-        match depth.checked_sub(1) {
-            None => inherit(&mut self.base, &mut self.levels[0], monitor)?,
-            Some(above) => {
-                let (parents, children) = self.levels.split_at_mut(depth);
-                inherit(&mut parents[above], &mut children[0], monitor)?;
-            }
-        }
+        self.make(depth, monitor)?;
         if depth + 1 == self.levels.len() {
             self.levels.push(HexLevel::default());
         }
         let (parents, children) = self.levels.split_at_mut(depth + 1);
-        refine(&mut self.positions, &mut parents[depth], &mut children[0], marked);
+        split(&mut parents[depth], &mut children[0], marked);
+        if depth + 2 < self.levels.len() { self.make(depth + 1, monitor) } else { Ok(()) }
+    }
+
+    /// Makes the elements of `levels[depth]` that splits have called for. Those of all levels but the deepest are there.
+    ///
+    /// # Errors
+    /// If the monitor stops it; then the forest is of no use any more.
+    pub fn make(&mut self, depth: usize, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        let known = self.levels[depth].elements.len() / 8;
+        let wanted = self.parents(depth).refined.len();
+        if known == wanted {
+            return Ok(());
+        }
+        match depth {
+            0 => {}
+            1 => inherit(&mut self.base, &mut self.levels[0], monitor)?,
+            _ => {
+                let (parents, children) = self.levels.split_at_mut(depth - 1);
+                inherit(&mut parents[depth - 2], &mut children[0], monitor)?;
+            }
+        }
+        let (parents, children) = self.levels.split_at_mut(depth);
+        let parent = parents.last_mut().unwrap_or(&mut self.base);
+        for first in (known..wanted).step_by(BATCH) {
+            monitor.proceed()?;
+            let families = first..wanted.min(first + BATCH);
+            refine(&mut self.positions, parent, &mut children[0], families, monitor)?;
+        }
         Ok(())
     }
 }
 
-/// Splits the elements `marked` of `parent`, whose edges and faces are made.
-fn refine(positions: &mut Vec<Point>, parent: &mut HexLevel, child: &mut HexLevel, marked: &[u32]) {
-    let volume_nodes = add_nodes(positions, parent, marked);
-    let families: Vec<[[NodeId; 8]; 8]> = parallel::collect(marked.len(), |k| {
-        let e = marked[k];
-        let (element, sides) = (&parent.elements[e as usize], &parent.sides[e as usize]);
-        let middles = sides.edges.map(|e| parent.edges.middle[e.index()]);
-        let centres = sides.faces.map(|f| parent.faces.centre[f.index()]);
-        let volume_node = NodeId(volume_nodes.0 + k as u32);
-        CHILDREN.map(|corners| {
-            corners.map(|local| match usize::from(local) {
-                k @ 0..8 => element[k],
-                k @ 8..20 => middles[k - 8],
-                k @ 20..26 => centres[k - 20],
-                _ => volume_node,
-            })
-        })
-    });
-    append(&mut child.elements, families.into_flattened());
-    child.is_refined.resize(child.elements.len(), false);
-    let at_base = parent.roots.len() == parent.elements.len();
+/// Elements that are refined before the monitor is asked again.
+const BATCH: usize = 1 << 14;
+
+/// Notes that the elements `marked` of `parent` are refined.
+fn split(parent: &mut HexLevel, child: &mut HexLevel, marked: &[u32]) {
+    let at_base = parent.roots.len() == parent.len();
     child.roots.extend(marked.iter().map(|&e| parent.roots[e as usize / if at_base { 1 } else { 8 }]));
+    child.is_refined.resize(child.len() + 8 * marked.len(), false);
     for &e in marked {
         parent.is_refined[e as usize] = true;
     }
     parent.refined.extend_from_slice(marked);
+}
+
+/// Makes some families of `child`, in order, from their parents, whose edges and faces are made.
+fn refine(
+    positions: &mut Vec<Point>,
+    parent: &mut HexLevel,
+    child: &mut HexLevel,
+    families: Range<usize>,
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
+    let volume_nodes = add_nodes(positions, parent, families.clone());
+    let marked = &parent.refined[families];
+    parallel::try_extend_arrays(&mut child.elements, marked.len(), monitor, |k| {
+        let e = marked[k] as usize;
+        let mut nodes = [NodeId(volume_nodes.0 + k as u32); 27];
+        let Sides { edges, faces } = &parent.sides[e];
+        nodes[..8].copy_from_slice(&parent.elements[e]);
+        for (node, edge) in nodes[8..].iter_mut().zip(edges) {
+            *node = parent.edges.middle[edge.index()];
+        }
+        for (node, face) in nodes[20..].iter_mut().zip(faces) {
+            *node = parent.faces.centre[face.index()];
+        }
+        let mut family = [[NodeId(0); 8]; 8];
+        for (child, corners) in family.iter_mut().zip(CHILDREN) {
+            for (node, corner) in child.iter_mut().zip(corners) {
+                *node = nodes[usize::from(corner)];
+            }
+        }
+        family
+    })
 }
 
 /// The corners of each child among the parent's corners (0..8), edges (8..20), faces (20..26) and centre (26).
@@ -293,10 +341,11 @@ const CHILDREN: [[u8; 8]; 8] = {
     all
 };
 
-/// Divides the edges and faces of the `marked` elements that nothing divides yet and gives each element its volume
+/// Divides the edges and faces of the parents of `families` that nothing divides yet and gives each parent its volume
 /// node; returns the first of the volume nodes.
-fn add_nodes(positions: &mut Vec<Point>, level: &mut HexLevel, marked: &[u32]) -> NodeId {
-    let HexLevel { elements, sides, edges, faces, .. } = level;
+fn add_nodes(positions: &mut Vec<Point>, level: &mut HexLevel, families: Range<usize>) -> NodeId {
+    let HexLevel { elements, refined, sides, edges, faces, .. } = level;
+    let marked = &refined[families];
     let first = positions.len();
     let (old_edges, old_faces) = (edges.split.len(), faces.split.len());
     for &e in marked {

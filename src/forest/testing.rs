@@ -1,5 +1,7 @@
 //! Small hex meshes for the tests of forests.
 
+use super::HexForest;
+use crate::Silent;
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::CORNERS;
 use crate::mesh::{HexMesh, NodeId};
@@ -36,4 +38,21 @@ fn box_of(n: [usize; 3], place: impl Fn(Point) -> Point, is_ring: bool) -> HexMe
         })
     });
     HexMesh { positions: positions.collect(), hexes: hexes.collect(), ..HexMesh::default() }
+}
+
+/// The forest of level 1: every hex of `input` refined once, so that elements `8r..8r + 8` are the children of hex `r`.
+pub(super) fn refined_once(input: &HexMesh) -> HexForest {
+    let mut forest = HexForest::new(input);
+    let all: Vec<u32> = (0..input.hexes.len() as u32).collect();
+    forest.split_base(&all, &Silent).unwrap();
+    forest.make(0, &Silent).unwrap();
+    forest
+}
+
+/// Splits some elements, and makes their children.
+pub(super) fn split(forest: &mut HexForest, depth: usize, marked: &[u32]) {
+    forest.split(depth, marked, &Silent).unwrap();
+    if !marked.is_empty() {
+        forest.make(depth + 1, &Silent).unwrap();
+    }
 }

@@ -89,7 +89,7 @@ pub struct OptimizeReport {
 
 /// The stages that a monitor hears of.
 const UNTANGLING: Stage = Stage("untangling");
-const SMOOTHING: Stage = Stage("smoothing");
+pub(crate) const SMOOTHING: Stage = Stage("smoothing");
 
 /// Untangles and smooths the hexes around the nodes that are `movable` (one flag a node), within `constraints`.
 ///
@@ -121,6 +121,7 @@ pub fn optimize(
     options: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<OptimizeReport, Cancelled> {
+    monitor.checkpoint(UNTANGLING, 0.0)?;
     let moves = |n: NodeId| movable[n.index()] && !constraints.is_fixed(n);
     let mut problem = Problem::within(positions, hexes, moves, monitor)?;
     let before = problem.state(monitor)?;

@@ -102,8 +102,10 @@ impl HexRefinement {
     }
 
     fn look(&mut self) -> Result<(), Failure> {
-        let look = |_: &Options, work: &Work| on_pool(|| work.as_ref().map(Refinement::candidates));
-        self.candidates = self.session.with_dependent(look).ok_or_else(over)?;
+        self.candidates = self.session.with_dependent_mut(|affordable, work| {
+            let candidates = on_pool(|| work.as_mut().map(|work| work.candidates(&Listener)));
+            candidates.ok_or_else(over)?.map_err(|error| affordable.failure(error.into()))
+        })?;
         Ok(())
     }
 }

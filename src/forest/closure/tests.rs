@@ -2,7 +2,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::*;
 use crate::Silent;
-use crate::forest::testing::{grid, key_of};
+use crate::forest::testing::{grid, key_of, refined_once, split};
 
 /// An element of a forest over [`grid`]: its level, and its least corner in units of its own size.
 type Cell = (u32, [i64; 3]);
@@ -38,7 +38,7 @@ fn refine_children(forest: &mut HexForest, depth: usize, parents: &[[i64; 3]]) {
     let marked: Vec<u32> = wanted.iter().map(|c| known[c]).collect();
     let marked: Vec<u32> =
         marked.into_iter().filter(|&e| !forest.levels[depth].is_refined[e as usize]).collect();
-    forest.split(depth, &marked);
+    split(forest, depth, &marked);
 }
 
 fn children(at: [i64; 3]) -> impl Iterator<Item = [i64; 3]> {
@@ -112,7 +112,7 @@ fn block(mask: u32, corner: i64) -> Vec<[i64; 3]> {
 #[test]
 fn all_256_blocks_of_coarse_hexes_for_method_one() {
     for mask in 0..256 {
-        let mut forest = HexForest::refined_once(&grid(4));
+        let mut forest = refined_once(&grid(4));
         refine_children(&mut forest, 0, &block(mask, 1));
         let before = parents_of(&forest, 0);
         let added = forest.close(Some(admits_method_one), u64::MAX, &Silent).unwrap();
@@ -131,7 +131,7 @@ fn all_256_blocks_of_coarse_hexes_for_method_one() {
 /// The design's figure: an L of six becomes the block of eight.
 #[test]
 fn method_one_fills_an_l_prism_to_a_block() {
-    let mut forest = HexForest::refined_once(&grid(4));
+    let mut forest = refined_once(&grid(4));
     let prism = 0b1111_1111 & !(1 << 3 | 1 << 7);
     refine_children(&mut forest, 0, &block(prism, 1));
     let added = forest.close(Some(admits_method_one), u64::MAX, &Silent).unwrap();
@@ -144,7 +144,7 @@ fn method_one_fills_an_l_prism_to_a_block() {
 #[test]
 fn all_256_blocks_a_level_deeper_are_balanced_as_the_rules_say() {
     for mask in 0..256 {
-        let mut forest = HexForest::refined_once(&grid(4));
+        let mut forest = refined_once(&grid(4));
         refine_children(&mut forest, 1, &block(mask, 3));
         let before = refined_cells(&forest);
         let added = forest.close(None, u64::MAX, &Silent).unwrap();
@@ -160,7 +160,7 @@ fn all_256_blocks_a_level_deeper_are_balanced_as_the_rules_say() {
 #[test]
 fn rules_work_together_over_three_levels() {
     for mask in (1..256).step_by(5) {
-        let mut forest = HexForest::refined_once(&grid(3));
+        let mut forest = refined_once(&grid(3));
         refine_children(&mut forest, 2, &block(mask, 5));
         let before = refined_cells(&forest);
         let added = forest.close(Some(admits_method_one), u64::MAX, &Silent).unwrap();
@@ -178,10 +178,10 @@ fn rules_work_together_over_three_levels() {
 /// Refining towards a point makes the number of levels grow; each is balanced on the next.
 #[test]
 fn a_corner_is_refined_deeply() {
-    let mut forest = HexForest::refined_once(&grid(2));
+    let mut forest = refined_once(&grid(2));
     for depth in 0..7 {
         let known = by_cell(&forest, depth);
-        forest.split(depth, &[known[&[(2 << depth) - 1; 3]]]);
+        split(&mut forest, depth, &[known[&[(2 << depth) - 1; 3]]]);
     }
     let before = refined_cells(&forest);
     let added = forest.close(None, u64::MAX, &Silent).unwrap();
@@ -198,8 +198,5 @@ fn stops_when_told() {
             true
         }
     }
-    assert_eq!(
-        HexForest::refined_once(&grid(2)).close(None, u64::MAX, &Stop),
-        Err(CloseError::Cancelled(Cancelled))
-    );
+    assert_eq!(refined_once(&grid(2)).close(None, u64::MAX, &Stop), Err(CloseError::Cancelled(Cancelled)));
 }

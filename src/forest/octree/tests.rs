@@ -1,9 +1,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::*;
-use crate::forest::testing::{grid, key_of, o_grid};
+use super::{HexForest, NodeKind};
+use crate::Silent;
+use crate::forest::testing::{grid, key_of, o_grid, refined_once, split};
 use crate::mesh::numbering::hex::{EDGES, FACES};
-use crate::mesh::{HexMesh, check_hexes};
+use crate::mesh::{EdgeId, FaceId, HexId, HexMesh, NodeId, check_hexes};
 
 /// All leaves of one level as a mesh.
 fn level_mesh(forest: &HexForest, depth: usize) -> HexMesh {
@@ -21,10 +22,10 @@ fn level_mesh(forest: &HexForest, depth: usize) -> HexMesh {
 
 /// Refines everything `times` times beyond the first.
 fn uniform(input: &HexMesh, times: usize) -> HexForest {
-    let mut forest = HexForest::refined_once(input);
+    let mut forest = refined_once(input);
     for depth in 0..times {
         let all: Vec<u32> = (0..forest.levels[depth].elements.len() as u32).collect();
-        forest.split(depth, &all);
+        split(&mut forest, depth, &all);
     }
     forest
 }
@@ -73,13 +74,13 @@ fn nodes_are_what_their_kind_says() {
 #[test]
 fn nodes_are_shared_whatever_the_order_of_the_splits() {
     let input = o_grid(3, 1);
-    let mut forest = HexForest::refined_once(&input);
+    let mut forest = refined_once(&input);
     let count = forest.levels[0].elements.len() as u32;
     for e in 0..count {
-        forest.split(0, &[(e * 7 + 3) % count]);
+        split(&mut forest, 0, &[(e * 7 + 3) % count]);
         if e % 3 == 0 {
             let last = forest.levels[1].elements.len() as u32 - 1;
-            forest.split(1, &[last]);
+            split(&mut forest, 1, &[last]);
         }
     }
     for depth in 0..2 {
@@ -95,7 +96,7 @@ fn nodes_are_shared_whatever_the_order_of_the_splits() {
 #[test]
 fn edges_and_faces_are_those_of_the_elements() {
     let mut forest = uniform(&o_grid(3, 2), 1);
-    forest.split(1, &[5, 77, 300]);
+    split(&mut forest, 1, &[5, 77, 300]);
     for level in [&forest.base, &forest.levels[0], &forest.levels[1]] {
         let mut at_edge: BTreeMap<BTreeSet<NodeId>, EdgeId> = BTreeMap::new();
         let mut at_face: BTreeMap<BTreeSet<NodeId>, FaceId> = BTreeMap::new();
@@ -123,8 +124,30 @@ fn edges_and_faces_are_those_of_the_elements() {
 #[test]
 fn roots_are_inherited() {
     let mut forest = uniform(&grid(2), 1);
-    forest.split(1, &[8 * 64 - 1, 0]);
+    split(&mut forest, 1, &[8 * 64 - 1, 0]);
     assert_eq!(forest.levels[0].root(13), HexId(1));
     assert_eq!(forest.levels[1].root(8 * 13), HexId(1));
     assert_eq!(forest.levels[2].family_roots(), [7, 0].map(HexId));
+}
+
+/// The deepest level is made when somebody asks for it, and no sooner: then it is as if it had been made at once.
+#[test]
+fn the_deepest_level_is_made_when_it_is_asked_for() {
+    let input = grid(2);
+    let (mut late, mut early) = (HexForest::new(&input), refined_once(&input));
+    late.split_base(&[0, 1, 2, 3, 4, 5, 6, 7], &Silent).unwrap();
+    assert_eq!((late.positions.len(), late.levels[0].elements.len(), late.levels[0].len()), (27, 0, 64));
+    for part in [&[1, 5][..], &[], &[63, 2, 3]] {
+        late.split(0, part, &Silent).unwrap();
+        split(&mut early, 0, part);
+        assert_eq!(late.levels[0].elements, early.levels[0].elements);
+    }
+    assert_eq!((late.positions.len(), late.levels[1].elements.len(), late.leaf_count()), (125, 0, 99));
+    late.make(1, &Silent).unwrap();
+    assert_eq!(check_hexes(&level_mesh(&late, 1)), []);
+    assert_eq!(level_mesh(&late, 1).positions.len(), level_mesh(&early, 1).positions.len());
+    // What is split where a deeper level is there is made at once.
+    late.split(1, &[8], &Silent).unwrap();
+    late.split(0, &[7], &Silent).unwrap();
+    assert_eq!((late.levels[1].elements.len(), late.levels[2].elements.len()), (8 * 6, 0));
 }

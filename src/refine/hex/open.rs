@@ -6,8 +6,11 @@
 use super::local::Local;
 use super::pillow::Pillow;
 use crate::mesh::NodeId;
-use crate::optimize::{Constraints, OptimizeOptions};
+use crate::optimize::{Constraints, OptimizeOptions, SMOOTHING};
 use crate::{Cancelled, Monitor, Stage};
+
+/// The stage that this file reports.
+const OPENING: Stage = Stage("opening");
 
 /// Every cell is to get better, in shape alone: what the layer is divided into has other worst corners.
 const OPTIONS: OptimizeOptions =
@@ -16,7 +19,8 @@ const OPTIONS: OptimizeOptions =
 /// Moves the layer's nodes, if none of them is on the boundary. There layers often stand between ridges with no room to
 /// open, and what they leave to the next stage is then worse.
 pub(super) fn open(pillow: &mut Pillow, monitor: &dyn Monitor) -> Result<(), Cancelled> {
-    let monitor = &Quiet(monitor);
+    let monitor = &Opening(monitor);
+    monitor.0.checkpoint(OPENING, 0.0)?;
     let Pillow { positions, hexes, layer, .. } = pillow;
     let mut moves = vec![false; positions.len()];
     layer.iter().flat_map(|hex| hex.hex).for_each(|n| moves[n.index()] = true);
@@ -30,11 +34,15 @@ pub(super) fn open(pillow: &mut Pillow, monitor: &dyn Monitor) -> Result<(), Can
     Ok(())
 }
 
-/// Tells no progress: the stages of smoothing are yet to come.
-struct Quiet<'a>(&'a dyn Monitor);
+/// Tells the progress of smoothing as that of a stage of its own: smoothing is yet to come.
+struct Opening<'a>(&'a dyn Monitor);
 
-impl Monitor for Quiet<'_> {
-    fn progress(&self, _: Stage, _: f64) {}
+impl Monitor for Opening<'_> {
+    fn progress(&self, stage: Stage, fraction: f64) {
+        if stage == SMOOTHING {
+            self.0.progress(OPENING, fraction);
+        }
+    }
 
     fn cancelled(&self) -> bool {
         self.0.cancelled()

@@ -10,7 +10,7 @@ use crate::mesh::{HexMesh, NodeId};
 use crate::refine::Candidates;
 use crate::refine::targets::{exceeds, first_bad_target};
 use crate::sizing::{SizeField, SizeOptions, SizedElement};
-use crate::{Monitor, Stage, parallel};
+use crate::{Cancelled, Monitor, Stage, parallel};
 
 const REFINE: Stage = Stage("refine");
 
@@ -27,7 +27,7 @@ const REFINE: Stage = Stage("refine");
 /// let options = HexOptions::default();
 /// let mut refinement = HexRefinement::new(&cubes, &options, &Silent)?;
 /// loop {
-///     let candidates = refinement.candidates();
+///     let candidates = refinement.candidates(&Silent)?;
 ///     let targets: Vec<f64> = candidates.centers.iter().map(|p| 0.1 + p.length() / 2.0).collect();
 ///     if !refinement.advance(Some(&targets), &Silent)? {
 ///         break;
@@ -73,14 +73,18 @@ impl<'a> HexRefinement<'a> {
 
     /// The elements that the next [`advance`](Self::advance) decides on: the input's hexes at first, then the
     /// elements that the last one made.
-    pub fn candidates(&self) -> Candidates {
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub fn candidates(&mut self, monitor: &dyn Monitor) -> Result<Candidates, Cancelled> {
+        self.make_last(monitor)?;
         let level = self.last_level();
         let corners = |e: usize| level.corners(&level.elements[e]);
         let count = level.elements.len();
-        Candidates {
-            centers: parallel::collect(count, |e| corners(e).iter().sum::<Point>() / 8.0),
-            longest: parallel::collect(count, |e| longest_edge(&corners(e))),
-        }
+        Ok(Candidates {
+            centers: parallel::try_collect(count, monitor, |e| corners(e).iter().sum::<Point>() / 8.0)?,
+            longest: parallel::try_collect(count, monitor, |e| longest_edge(&corners(e)))?,
+        })
     }
 
     /// Refines the candidates that options or `targets` ask for; `targets` holds the greatest edge length allowed
@@ -96,14 +100,12 @@ impl<'a> HexRefinement<'a> {
         targets: Option<&[f64]>,
         monitor: &dyn Monitor,
     ) -> Result<bool, HexRefineError> {
-        let (options, level) = (self.options, self.last_level());
-        let count = level.elements.len();
+        let (options, (number, count)) = (self.options, self.last());
         if let Some(targets) = targets {
             validate_targets(targets, count)?;
         }
-        let number = level.number;
         monitor.checkpoint(REFINE, f64::from(number) / f64::from(options.max_levels.max(number).max(1)))?;
-        let mut marked = level.wanted(&self.field, options, targets, monitor)?;
+        let mut marked = self.wanted(targets, monitor)?;
         if marked.is_empty() {
             return Ok(false);
         }
@@ -161,14 +163,47 @@ impl<'a> HexRefinement<'a> {
         self.plan(monitor)?.carry_out(monitor)
     }
 
-    /// The deepest level; none of its elements is refined.
-    fn last_level(&self) -> Level<'_> {
+    /// The number of the deepest level, and how many elements it has.
+    fn last(&self) -> (u8, usize) {
         match &self.trees {
-            None => Level { elements: &self.input.hexes, positions: &self.input.positions, number: 0 },
+            None => (0, self.input.hexes.len()),
             Some(trees) => {
                 let number = trees.depth() - 1;
-                let elements = trees.level(number).elements;
-                Level { elements, positions: trees.positions(), number: number as u8 }
+                (number as u8, trees.level(number).is_refined.len())
+            }
+        }
+    }
+
+    /// The elements of the deepest level that are wanted finer. They are made only if it depends on where they are.
+    fn wanted(&mut self, targets: Option<&[f64]>, monitor: &dyn Monitor) -> Result<Vec<u32>, HexRefineError> {
+        let (number, count) = self.last();
+        if self.options.levels.is_some_and(|levels| number < levels) {
+            return Ok((0..count as u32).collect());
+        }
+        if targets.is_none() && self.field.is_idle_from(number) {
+            return Ok(Vec::new());
+        }
+        self.make_last(monitor)?;
+        let level = self.last_level();
+        let wants = |e: usize| {
+            let corners = level.corners(&level.elements[e]);
+            let longest = longest_edge(&corners);
+            exceeds(targets, e, longest)
+                || self.field.wants(&SizedElement { corners, longest, level: number, root: None })
+        };
+        Ok(parallel::try_filter(count, monitor, wants)?)
+    }
+
+    fn make_last(&mut self, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        self.trees.as_mut().map_or(Ok(()), |trees| trees.make_last(monitor))
+    }
+
+    /// The deepest level, which is made; none of its elements is refined.
+    fn last_level(&self) -> Level<'_> {
+        match &self.trees {
+            None => Level { elements: &self.input.hexes, positions: &self.input.positions },
+            Some(trees) => {
+                Level { elements: trees.level(trees.depth() - 1).elements, positions: trees.positions() }
             }
         }
     }
@@ -178,33 +213,9 @@ impl<'a> HexRefinement<'a> {
 struct Level<'a> {
     elements: &'a [[NodeId; 8]],
     positions: &'a [Point],
-    number: u8,
 }
 
 impl Level<'_> {
-    /// The elements that are wanted finer.
-    fn wanted(
-        &self,
-        field: &SizeField,
-        options: &HexOptions,
-        targets: Option<&[f64]>,
-        monitor: &dyn Monitor,
-    ) -> Result<Vec<u32>, HexRefineError> {
-        if options.levels.is_some_and(|levels| self.number < levels) {
-            return Ok((0..self.elements.len() as u32).collect());
-        }
-        if targets.is_none() && field.is_idle_from(self.number) {
-            return Ok(Vec::new());
-        }
-        let wants = |e: usize| {
-            let corners = self.corners(&self.elements[e]);
-            let longest = longest_edge(&corners);
-            exceeds(targets, e, longest)
-                || field.wants(&SizedElement { corners, longest, level: self.number, root: None })
-        };
-        Ok(parallel::try_filter(self.elements.len(), monitor, wants)?)
-    }
-
     fn corners(&self, element: &[NodeId; 8]) -> [Point; 8] {
         element.map(|n| self.positions[n.index()])
     }

@@ -20,7 +20,7 @@ pub(super) enum Trees {
 /// The elements of one level.
 #[derive(Clone, Copy)]
 pub(super) struct TreeLevel<'a> {
-    /// The nodes of each.
+    /// The nodes of each. Those of the deepest level may not be made ([`Trees::make_last`]).
     pub(super) elements: &'a [[NodeId; 8]],
     /// Those that are refined, in the order in which they were: the children of the k-th are the k-th family of the
     /// next level.
@@ -51,9 +51,7 @@ impl Trees {
     /// The number of levels that have elements.
     pub(super) fn depth(&self) -> usize {
         match self {
-            Self::Octrees(forest) => {
-                1 + forest.levels.iter().take_while(|level| !level.elements.is_empty()).count()
-            }
+            Self::Octrees(forest) => 1 + forest.levels.iter().take_while(|level| !level.is_empty()).count(),
             Self::Thirds(forest) => forest.levels.len(),
         }
     }
@@ -90,7 +88,7 @@ impl Trees {
 
     /// Number of elements that are not refined.
     pub(super) fn leaf_count(&self) -> usize {
-        (0..self.depth()).map(|number| self.level(number)).map(|l| l.elements.len() - l.refined.len()).sum()
+        (0..self.depth()).map(|number| self.level(number)).map(|l| l.is_refined.len() - l.refined.len()).sum()
     }
 
     /// Refines the elements `marked` of level `number`, none of which is yet.
@@ -101,18 +99,22 @@ impl Trees {
         monitor: &dyn Monitor,
     ) -> Result<(), HexRefineError> {
         match self {
-            Self::Octrees(forest) => {
-                for batch in marked.chunks(BATCH) {
-                    monitor.proceed()?;
-                    match number.checked_sub(1) {
-                        None => forest.split_base(batch),
-                        Some(depth) => forest.split_within(depth, batch, monitor)?,
-                    }
-                }
-            }
+            Self::Octrees(forest) => match number.checked_sub(1) {
+                None => forest.split_base(marked, monitor)?,
+                Some(depth) => forest.split(depth, marked, monitor)?,
+            },
             Self::Thirds(forest) => forest.split(number, marked, monitor)?,
         }
         Ok(())
+    }
+
+    /// Makes the elements of the deepest level.
+    pub(super) fn make_last(&mut self, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        let depth = self.depth();
+        match self {
+            Self::Octrees(forest) if depth > 1 => forest.make(depth - 2, monitor),
+            _ => Ok(()),
+        }
     }
 
     /// Refines what the rules of conforming refinement ask for, besides; at most to `limit` leaves.
@@ -134,6 +136,3 @@ impl Trees {
         })
     }
 }
-
-/// Elements that are split before the monitor is asked again.
-const BATCH: usize = 1 << 14;

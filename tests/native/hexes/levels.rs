@@ -26,7 +26,7 @@ fn by_sizes(input: &HexMesh, method: Method, size: impl Fn(Point) -> f64) -> Ref
     let options = options(method, Vec::new());
     let mut refinement = HexRefinement::new(input, &options, &Silent).expect("a mesh");
     loop {
-        let candidates = refinement.candidates();
+        let candidates = refinement.candidates(&Silent).unwrap();
         let targets: Vec<f64> = candidates.centers.iter().map(|&p| size(p)).collect();
         if !refinement.advance(Some(&targets), &Silent).expect("a few hexes") {
             return refinement.finish(&Silent).expect("a few hexes");
@@ -53,12 +53,12 @@ fn a_callers_sizes_do_what_regions_do() {
 fn candidates_are_the_elements_of_the_last_level() {
     let (input, options) = (cubes(2), options(Method::Auto, Vec::new()));
     let mut refinement = HexRefinement::new(&input, &options, &Silent).expect("a mesh");
-    let first = refinement.candidates();
+    let first = refinement.candidates(&Silent).unwrap();
     assert_eq!((first.centers[0], first.longest.clone()), (Point::splat(0.5), vec![1.0; 8]));
     let mut targets = vec![f64::INFINITY; 8];
     targets[0] = 0.9;
     assert!(refinement.advance(Some(&targets), &Silent).expect("one hex"));
-    let second = refinement.candidates();
+    let second = refinement.candidates(&Silent).unwrap();
     assert_eq!((second.centers[0], second.longest), (Point::splat(0.25), vec![0.5; 8]));
     let code = |refinement: &mut HexRefinement, targets: &[f64]| {
         refinement.advance(Some(targets), &Silent).expect_err("it is refused").code()

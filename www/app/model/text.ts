@@ -57,6 +57,7 @@ const DOING: Readonly<Record<string, string>> = {
   templates: 'joining levels',
   close: 'closing families',
   pillow: 'making layers',
+  opening: 'opening layers',
   untangling: 'untangling transitions',
   smoothing: 'smoothing transitions',
   solid: 'finding the solid',
