@@ -117,6 +117,32 @@ describe.each([
     expect(await bench.cellsOf(region)).toEqual(withRegion);
   });
 
+  test('what is being written stays while other things change', async () => {
+    const { page } = bench;
+    await page.getByRole('button', { name: 'Add sphere' }).click();
+    const field = page.getByLabel('Centre x', { exact: true });
+    await field.fill('0.0625');
+    // An estimate is made anew and arrives, and the region is drawn again for it.
+    const before = await page.evaluate(() => window.hexmill.workbench.settings.value.gradation);
+    await page.evaluate(() => window.hexmill.workbench.edit({ gradation: 1.5 }));
+    await bench.estimate();
+    await bench.settle();
+    expect(await field.inputValue()).toBe('0.0625');
+    await field.press('Tab');
+    const centre = await page.evaluate(() => {
+      const shape = window.hexmill.workbench.settings.value.regions[1]?.shape;
+      return shape?.kind === 'sphere' ? shape.center[0] : undefined;
+    });
+    expect(centre).toBe(0.0625);
+    // What is undone is written there again, whatever has the focus.
+    await field.focus();
+    await page.evaluate(() => window.hexmill.workbench.undo());
+    expect(Number(await field.inputValue())).not.toBe(0.0625);
+    await page.locator('[data-region="1"]').getByRole('button', { name: /^Delete/ }).click();
+    await page.evaluate((gradation) => window.hexmill.workbench.edit({ gradation }), before);
+    await bench.mesh();
+  });
+
   test('a region that meets nothing says so', async () => {
     const region = bench.page.locator('[data-region="1"]');
     await bench.page.getByRole('button', { name: 'Add sphere' }).click();

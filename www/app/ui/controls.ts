@@ -4,6 +4,7 @@ import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { live } from 'lit-html/directives/live.js';
 import { icon } from './icons.js';
+import { written } from './written.js';
 import type { IconName } from './icons.js';
 import type { Complaint } from '../model/complaint.js';
 import { LIMITS } from '../model/settings.js';
@@ -47,7 +48,7 @@ export function numberField(field: NumberField): TemplateResult {
     <span class=${field.inline ? 'prefix' : 'label'} aria-hidden="true">${field.inline ?? field.label}</span>
     <span class="entry">
       <input type="text" inputmode="decimal" autocomplete="off" spellcheck="false" aria-label=${field.unit ? `${field.label}, ${field.unit}` : field.label}
-        .value=${live(editable(field.value))} ?disabled=${field.disabled ?? false} @keydown=${key}
+        .value=${written(editable(field.value))} ?disabled=${field.disabled ?? false} @keydown=${key}
         @change=${(event: Event) => commit(event.target as HTMLInputElement, parseNumber((event.target as HTMLInputElement).value))}
         @blur=${(event: Event) => restore(event.target as HTMLInputElement, field.value)} />
       ${field.unit ? html`<span class="unit" aria-hidden="true">${field.unit}</span>` : nothing}
