@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::mesh::topology::HexFaces;
-use crate::mesh::{BoundaryGroups, HexMesh, NodeId, TagSet, Tags};
+use crate::mesh::{FaceGroups, HexMesh, NodeId, TagSet, Tags};
 use crate::solid::SurfaceId;
 
 /// Boundary faces by their hex and their number there, ascending, each with the surface that it stands for. `faces` are
@@ -20,7 +20,7 @@ pub(super) fn sides_of(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Ve
 
 /// A group for each surface that has one of these boundary faces, named `surface-1` for the first. The faces are 6 times
 /// the hex and the number there. `None` if they do not ascend.
-pub fn surface_groups(sides: &[(u32, SurfaceId)]) -> Option<BoundaryGroups> {
+pub fn surface_groups(sides: &[(u32, SurfaceId)]) -> Option<FaceGroups> {
     let mut set_of = BTreeMap::new();
     let mut sets = Vec::new();
     let of_element = sides.iter().map(|&(_, surface)| {
@@ -33,7 +33,7 @@ pub fn surface_groups(sides: &[(u32, SurfaceId)]) -> Option<BoundaryGroups> {
     });
     let of_element = of_element.collect();
     let sides = sides.iter().map(|&(side, _)| side).collect();
-    BoundaryGroups::new(sides, Tags { sets, of_element })
+    FaceGroups::new(sides, Tags { sets, of_element })
 }
 
 /// A group of hexes for each of so many bodies, named `body-1` for the first, from the body of each hex.

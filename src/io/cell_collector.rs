@@ -1,16 +1,16 @@
 //! From the cells of a file, of mixed kinds and in any order, to one mesh.
 //!
-//! A file with hexahedra is a hex mesh: its faces with tags are groups of boundary faces, and its lines are left out. A
+//! A file with hexahedra is a hex mesh: its faces with tags are groups of faces, and its lines are left out. A
 //! file without is a surface, whose lines become [`Features::polylines`].
 
-use super::boundary_faces::match_faces;
 use super::cell_kind::{CellKind, ONLY_THESE_CELLS};
+use super::matched_faces::match_faces;
 use super::refusal::{code, refuse};
 use super::tag_interner::CellTags;
 use super::{Document, Format, ReadError};
 use crate::geometry::Point;
 use crate::mesh::topology::Side;
-use crate::mesh::{BoundaryGroups, FaceId, Features, HexMesh, NodeId, PolygonMesh};
+use crate::mesh::{FaceGroups, FaceId, Features, HexMesh, NodeId, PolygonMesh};
 
 /// The cells of a file, checked one by one.
 pub(super) struct CellCollector {
@@ -188,8 +188,8 @@ impl CellCollector {
         Ok(Document { tags, level, parent, dropped_faces, dropped_groups, ..Document::from(mesh) })
     }
 
-    /// The groups of boundary faces, and the cells that are faces and none of the boundary.
-    fn groups(&self, tags: &mut CellTags) -> Result<(BoundaryGroups, Vec<u32>), ReadError> {
+    /// The groups of faces, and the cells that are faces and none of the hexes'.
+    fn groups(&self, tags: &mut CellTags) -> Result<(FaceGroups, Vec<u32>), ReadError> {
         if Side::try_from(6 * self.hexes.len()).is_err() {
             return Err(self.too_large());
         }

@@ -8,7 +8,7 @@ use super::tag_numbers::cell_numbers;
 use super::{AnyMesh, Document, Format, WriteError};
 use crate::geometry::Point;
 use crate::mesh::topology::{hex_of, side_nodes};
-use crate::mesh::{BoundaryGroups, FaceId, NodeId, PolygonMesh, SecondOrder, Tags};
+use crate::mesh::{FaceGroups, FaceId, NodeId, PolygonMesh, SecondOrder, Tags};
 
 /// A document that was checked: every node id is in range, every coordinate is finite, and the columns
 /// have an entry a cell or none.
@@ -23,12 +23,12 @@ pub(super) struct CellView<'a> {
     pub level: &'a [u8],
     /// Parent of each cell, or empty.
     pub parent: &'a [FaceId],
-    /// Groups of boundary faces of hexes.
-    pub groups: &'a BoundaryGroups,
+    /// Groups of faces of hexes.
+    pub groups: &'a FaceGroups,
 }
 
 /// No groups, for surfaces.
-static NO_GROUPS: LazyLock<BoundaryGroups> = LazyLock::new(BoundaryGroups::default);
+static NO_GROUPS: LazyLock<FaceGroups> = LazyLock::new(FaceGroups::default);
 
 /// The cells of a mesh.
 #[derive(Clone, Copy)]
@@ -43,15 +43,16 @@ pub(super) enum Cells<'a> {
     SecondOrder(&'a SecondOrder),
 }
 
-/// Boundary faces of hexes that are in groups, all with the same number of nodes.
-pub(super) struct BoundaryFaces {
+/// Faces of hexes that are in groups, all with the same number of nodes.
+pub(super) struct GroupedFaces {
     /// How many nodes a face has.
     pub size: usize,
-    /// Those of all faces, anticlockwise seen from outside; of the second order those on the edges and inside follow.
+    /// Those of all faces, anticlockwise seen from outside the hex that the group
+    /// has them of; of the second order those on the edges and inside follow.
     pub nodes: Vec<NodeId>,
 }
 
-impl BoundaryFaces {
+impl GroupedFaces {
     /// Number of faces.
     pub fn len(&self) -> usize {
         self.nodes.len() / self.size
@@ -137,7 +138,7 @@ impl<'a> CellView<'a> {
             ));
         }
         if let Some(side) = self.groups.sides().iter().find(|&&side| hex_of(side).index() >= count) {
-            let message = format!("a group of boundary faces is at hex {} of {count}", hex_of(*side));
+            let message = format!("a group of faces is at hex {} of {count}", hex_of(*side));
             return Err((code::INCONSISTENT, message));
         }
         let nodes = self.positions.len();
@@ -150,23 +151,23 @@ impl<'a> CellView<'a> {
         Ok(())
     }
 
-    /// The boundary faces that are in groups.
-    pub fn boundary_faces(&self) -> BoundaryFaces {
+    /// The faces that are in groups.
+    pub fn grouped_faces(&self) -> GroupedFaces {
         let sides = self.groups.sides().iter();
         match self.cells {
             Cells::Hexes(hexes) => {
-                BoundaryFaces { size: 4, nodes: sides.flat_map(|&side| side_nodes(hexes, side)).collect() }
+                GroupedFaces { size: 4, nodes: sides.flat_map(|&side| side_nodes(hexes, side)).collect() }
             }
-            Cells::SecondOrder(hexes) => BoundaryFaces {
+            Cells::SecondOrder(hexes) => GroupedFaces {
                 size: hexes.hex.nodes_of_face(),
                 nodes: sides.flat_map(|&side| hexes.nodes_of_side(side)).collect(),
             },
-            Cells::Polygons(_) | Cells::Quads(_) => BoundaryFaces { size: 4, nodes: Vec::new() },
+            Cells::Polygons(_) | Cells::Quads(_) => GroupedFaces { size: 4, nodes: Vec::new() },
         }
     }
 
-    /// What is known of each cell, and after it the same of the hex of each boundary face that is in a group.
-    pub fn with_boundary_faces<'c, T: Copy>(&self, of_cells: &'c [T]) -> Cow<'c, [T]> {
+    /// What is known of each cell, and after it the same of the hex of each face that is in a group.
+    pub fn with_grouped_faces<'c, T: Copy>(&self, of_cells: &'c [T]) -> Cow<'c, [T]> {
         if of_cells.is_empty() || self.groups.is_empty() {
             return Cow::Borrowed(of_cells);
         }
@@ -174,8 +175,8 @@ impl<'a> CellView<'a> {
         Cow::Owned(of_cells.iter().copied().chain(of_faces).collect())
     }
 
-    /// The number of the tag set of each cell, then of each boundary face that is in a group; nothing if there are no
-    /// tags. Cells and boundary faces are numbered apart.
+    /// The number of the tag set of each cell, then of each face that is in a group; nothing if there are no
+    /// tags. Cells and faces are numbered apart.
     pub fn numbers(&self) -> Vec<i32> {
         let mut numbers = cell_numbers(self.tags);
         if !self.groups.is_empty() {

@@ -44,7 +44,7 @@ impl AnyMesh {
 /// A mesh with what is known of its cells. The vectors have an entry a cell, or none at all.
 ///
 /// The names of the cells stand in [`Document::tags`] alone: the `tags` of the mesh within are empty. The groups of the
-/// boundary faces of hexes stand in the mesh.
+/// faces of hexes stand in the mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     /// Nodes and cells.
@@ -57,7 +57,7 @@ pub struct Document {
     pub parent: Vec<FaceId>,
     /// What makes the hexes hexes of the second order; only written.
     pub second_order: Option<SecondOrder>,
-    /// Faces in a file of hexes that are no boundary faces of these, and were left out.
+    /// Faces in a file of hexes that are no faces of these, and were left out.
     pub dropped_faces: usize,
     /// The groups in a file of hexes that were left out, all or in part: of such faces, of edges and of nodes. One without
     /// a name is told by its number.

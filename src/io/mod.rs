@@ -13,13 +13,13 @@ pub mod stl;
 pub mod vtk;
 pub mod vtu;
 
-mod boundary_faces;
 mod cell_collector;
 mod cell_kind;
 mod cell_view;
 mod document;
 mod error;
 mod format;
+mod matched_faces;
 mod name_budget;
 mod node_numbers;
 mod refusal;

@@ -7,7 +7,7 @@ use super::refusal::{code, refuse};
 use super::tag_numbers::Names;
 use super::{Format, ReadError};
 use crate::mesh::topology::Side;
-use crate::mesh::{BoundaryGroups, TagSet, Tags};
+use crate::mesh::{FaceGroups, TagSet, Tags};
 
 /// The tags of the cells of a file, of any kind, in the file's order.
 #[derive(Default)]
@@ -25,14 +25,14 @@ impl CellTags {
     }
 
     /// Tags from the number of each cell, as MEDIT and VTK have them: 0 is no tag. `named` are the sets
-    /// that a number stands for where the file says more than the number; for boundary faces of hexes these are others.
-    pub fn from_numbers(numbers: &[i64], named: &Names, is_boundary: impl Fn(usize) -> bool) -> Self {
+    /// that a number stands for where the file says more than the number; for faces of hexes these are others.
+    pub fn from_numbers(numbers: &[i64], named: &Names, is_face: impl Fn(usize) -> bool) -> Self {
         let mut tags = Self::new(0);
         let mut index_of_number = HashMap::new();
         for (cell, &number) in numbers.iter().enumerate() {
-            let on_boundary = is_boundary(cell);
-            let index = *index_of_number.entry((number, on_boundary)).or_insert_with(|| {
-                tags.index(named.get(number, on_boundary).cloned().unwrap_or_else(|| TagSet {
+            let of_face = is_face(cell);
+            let index = *index_of_number.entry((number, of_face)).or_insert_with(|| {
+                tags.index(named.get(number, of_face).cloned().unwrap_or_else(|| TagSet {
                     number: i32::try_from(number).ok().filter(|&n| n != 0),
                     ..TagSet::default()
                 }))
@@ -77,12 +77,12 @@ impl CellTags {
         if tags.sets.iter().all(|set| *set == TagSet::default()) { Tags::default() } else { tags }
     }
 
-    /// The groups of boundary faces: cells of the file by the sides that they are, ascending. A side is in the groups
+    /// The groups of faces: cells of the file by the sides that they are, ascending. A side is in the groups
     /// of all its cells; those of cells without tags are in none.
     ///
     /// # Errors
     /// If the names of all sets take more memory than the file is worth.
-    pub fn of_sides(&mut self, cells: &[(Side, u32)], format: Format) -> Result<BoundaryGroups, ReadError> {
+    pub fn of_sides(&mut self, cells: &[(Side, u32)], format: Format) -> Result<FaceGroups, ReadError> {
         let mut union_of: HashMap<Vec<u32>, u32> = HashMap::new();
         let (mut sides, mut sets, mut here) = (Vec::new(), Vec::new(), Vec::new());
         for same in cells.chunk_by(|a, b| a.0 == b.0) {
@@ -108,7 +108,7 @@ impl CellTags {
             sets.push(set);
         }
         let tags = self.in_order_of_use(sets.into_iter().map(Some));
-        Ok(BoundaryGroups::new(sides, tags).expect("sides ascend, each with a set"))
+        Ok(FaceGroups::new(sides, tags).expect("sides ascend, each with a set"))
     }
 
     /// What the tags of the given cells are called, each once, in order of first use: their groups, or else their number.

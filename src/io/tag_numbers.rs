@@ -69,18 +69,18 @@ pub(super) fn set_of_labels<'a>(labels: impl IntoIterator<Item = &'a str>, numbe
     set
 }
 
-/// The dimension of the sets of boundary faces of hexes: their numbers are others than those of the hexes.
-const BOUNDARY: u64 = 2;
+/// The dimension of the sets of faces of hexes: their numbers are others than those of the hexes.
+const FACES: u64 = 2;
 
 /// The sets by their numbers as JSON, for a format that keeps numbers with the cells and has room for
-/// text elsewhere. Sets without names are left out. Those of boundary faces of hexes have a dimension.
-pub(super) fn names_to_json(cells: &Tags, boundary: &Tags) -> Option<Vec<u8>> {
+/// text elsewhere. Sets without names are left out. Those of faces of hexes have a dimension.
+pub(super) fn names_to_json(cells: &Tags, faces: &Tags) -> Option<Vec<u8>> {
     let numbered = |tags: &Tags, dimension: Option<u64>| {
         let sets: Vec<TagSet> = tags.sets.clone();
         sets.into_iter().zip(number_sets(tags)).map(move |(set, number)| (set, number, dimension))
     };
     let named: Vec<serde_json::Value> = numbered(cells, None)
-        .chain(numbered(boundary, Some(BOUNDARY)))
+        .chain(numbered(faces, Some(FACES)))
         .filter(|(set, ..)| !has_no_names(set))
         .map(|(set, number, dimension)| {
             let mut entry = serde_json::Map::new();
@@ -107,13 +107,13 @@ pub(super) fn names_to_json(cells: &Tags, boundary: &Tags) -> Option<Vec<u8>> {
 #[derive(Default)]
 pub(super) struct Names {
     of_cells: HashMap<i64, TagSet>,
-    of_boundary: HashMap<i64, TagSet>,
+    of_faces: HashMap<i64, TagSet>,
 }
 
 impl Names {
-    /// The set that a number stands for, of a boundary face of hexes or of another cell.
-    pub fn get(&self, number: i64, on_boundary: bool) -> Option<&TagSet> {
-        if on_boundary { &self.of_boundary } else { &self.of_cells }.get(&number)
+    /// The set that a number stands for, of a face of hexes or of another cell.
+    pub fn get(&self, number: i64, of_face: bool) -> Option<&TagSet> {
+        if of_face { &self.of_faces } else { &self.of_cells }.get(&number)
     }
 }
 
@@ -131,8 +131,8 @@ pub(super) fn names_from_json(json: &[u8]) -> Names {
             material: text(&entry["material"]),
             number: Some(number),
         };
-        let on_boundary = entry["dimension"].as_u64() == Some(BOUNDARY);
-        let of_kind = if on_boundary { &mut names.of_boundary } else { &mut names.of_cells };
+        let of_face = entry["dimension"].as_u64() == Some(FACES);
+        let of_kind = if of_face { &mut names.of_faces } else { &mut names.of_cells };
         of_kind.insert(number.into(), set);
     }
     names

@@ -1,6 +1,6 @@
 //! Hex meshes.
 
-use super::{BoundaryGroups, NodeId, Tags};
+use super::{FaceGroups, NodeId, Tags};
 use crate::geometry::{Aabb, Point};
 
 /// A mesh of hexahedra, as a structure of arrays. Nodes of a hex are in the order of VTK_HEXAHEDRON.
@@ -12,8 +12,8 @@ pub struct HexMesh {
     pub hexes: Vec<[NodeId; 8]>,
     /// Names that the file gave to the hexes.
     pub tags: Tags,
-    /// Groups of boundary faces.
-    pub groups: BoundaryGroups,
+    /// Groups of faces, on the boundary and between hexes.
+    pub groups: FaceGroups,
 }
 
 impl HexMesh {

@@ -1,8 +1,8 @@
 //! Meshes: ids, structure-of-arrays meshes, topology, checks, quality.
 
-mod boundary_groups;
 pub mod check;
 mod distance;
+mod face_groups;
 mod faces;
 mod grid;
 mod hash;
@@ -19,10 +19,10 @@ pub mod topology;
 mod volume;
 mod weld;
 
-pub use boundary_groups::BoundaryGroups;
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
 pub(crate) use distance::samples_beyond;
 pub use distance::{Distance, Distances, Triangles, distances_of_hexes};
+pub use face_groups::FaceGroups;
 pub use faces::Faces;
 pub use grid::{GridError, GridOptions, hex_grid};
 pub use hash::{MeshHash, mesh_hash, polygon_hash};

@@ -23,7 +23,7 @@ const SILENT: usize = 1 << 16;
 /// What a face of the surface parts, and the group that it is in. Patches end where this changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FaceKind {
-    /// The number of its group.
+    /// The number of its group, `u32::MAX` for none.
     pub group: u32,
     /// The materials on its two sides, ascending; the second is [`FaceKind::OUTSIDE`] on the boundary.
     pub materials: [u32; 2],
@@ -38,9 +38,9 @@ impl FaceKind {
         Self { group, materials: [material, Self::OUTSIDE] }
     }
 
-    /// A face between two materials, in no group; none if they are one.
-    pub fn between(a: u32, b: u32) -> Option<Self> {
-        (a != b).then_some(Self { group: u32::MAX, materials: [a.min(b), a.max(b)] })
+    /// A face between two materials; none if they are one.
+    pub fn between([a, b]: [u32; 2], group: impl FnOnce() -> u32) -> Option<Self> {
+        (a != b).then(|| Self { group: group(), materials: [a.min(b), a.max(b)] })
     }
 
     /// Is it between two materials?

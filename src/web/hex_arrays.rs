@@ -9,7 +9,7 @@ use super::pool::on_pool;
 use crate::geometry::Point;
 use crate::mesh::check::{check_hexes, summary};
 use crate::mesh::quality::hex_quality;
-use crate::mesh::{BoundaryGroups, HexMesh, NodeId, mesh_hash};
+use crate::mesh::{FaceGroups, HexMesh, NodeId, mesh_hash};
 
 /// A hex mesh that was made, on its way to JavaScript.
 #[wasm_bindgen]
@@ -89,18 +89,18 @@ pub(super) fn pairs(faces: impl Iterator<Item = (u32, u32)>) -> Uint32Array {
 }
 
 /// The groups that `grouped` makes of what [`pairs`] told.
-pub(super) fn boundary_groups(
+pub(super) fn face_groups(
     pairs: &[u32],
     hexes: usize,
-    grouped: impl FnOnce(Vec<(u32, u32)>) -> Option<BoundaryGroups>,
-) -> Result<BoundaryGroups, Failure> {
+    grouped: impl FnOnce(Vec<(u32, u32)>) -> Option<FaceGroups>,
+) -> Result<FaceGroups, Failure> {
     let (pairs, rest) = pairs.as_chunks::<2>();
     if pairs.is_empty() && rest.is_empty() {
-        return Ok(BoundaryGroups::default());
+        return Ok(FaceGroups::default());
     }
     let is_in_range = pairs.last().is_none_or(|&[last, _]| (last as usize) < 6 * hexes);
     let groups = grouped(pairs.iter().map(|&[side, of]| (side, of)).collect());
-    let message = "the groups of boundary faces are not those of the mesh";
+    let message = "the groups of faces are not those of the mesh";
     groups
         .filter(|_| is_in_range && rest.is_empty())
         .ok_or_else(|| Failure::input("groups-invalid", &message))

@@ -30,7 +30,7 @@ pub struct HexMesh {
     pub(super) mesh: Arc<Mesh>,
     /// Hexes that were numbered inside out, and were turned.
     pub(super) turned: usize,
-    /// Faces in the file that are no boundary faces of the hexes.
+    /// Faces in the file that are no faces of the hexes.
     dropped_faces: usize,
 }
 
@@ -53,7 +53,7 @@ struct Info {
     defects: Vec<String>,
 }
 
-/// A group of boundary faces.
+/// A group of faces.
 #[derive(Serialize)]
 struct Group {
     names: Vec<String>,

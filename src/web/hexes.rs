@@ -7,13 +7,13 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use super::convert::{check_parents, to_object};
 use super::errors::Failure;
 use super::file::format_named;
-use super::hex_arrays::{HexArrays, boundary_groups, hex_mesh, pairs};
+use super::hex_arrays::{HexArrays, face_groups, hex_mesh, pairs};
 use super::hex_mesh::HexMesh;
 use super::listener::Listener;
 use super::memory::{Affordable, Cost, Limited};
 use super::pool::on_pool;
 use crate::io::{self, Document};
-use crate::mesh::{BoundaryGroups, FaceId, Tags};
+use crate::mesh::{FaceGroups, FaceId, Tags};
 use crate::refine::hex::{
     Added, HexForecast, HexOptions, HexPlan, HexRefineError, RefinedHexes, StageForecast, refine_hexes,
 };
@@ -45,7 +45,7 @@ pub struct Hexes {
 
 #[wasm_bindgen]
 impl Hexes {
-    /// Gives the mesh away. The boundary faces that are in [`groups`](Self::groups) are to be asked for before.
+    /// Gives the mesh away. The faces that are in [`groups`](Self::groups) are to be asked for before.
     pub fn arrays(&mut self) -> HexArrays {
         std::mem::take(&mut self.refined.mesh).into()
     }
@@ -60,7 +60,7 @@ impl Hexes {
         self.refined.root.as_slice().into()
     }
 
-    /// The boundary faces that are in groups: two numbers for each, 6 times its hex and its number there, and which of
+    /// The faces that are in groups: two numbers for each, 6 times its hex and its number there, and which of
     /// the input's groups it is in.
     pub fn groups(&self) -> Uint32Array {
         pairs(self.refined.mesh.groups.labels())
@@ -158,7 +158,7 @@ pub fn plan(input: &HexMesh, options: JsValue) -> Result<JsValue, Failure> {
 }
 
 /// A refined mesh, given back as arrays, as the bytes of a file. `input`, which it was made from, tells the tags and
-/// what the groups of boundary faces are.
+/// what the groups of faces are.
 ///
 /// # Errors
 /// If the arrays do not fit together, there is no such format, or it holds no hexes.
@@ -174,9 +174,9 @@ pub fn export(
 ) -> Result<Uint8Array, Failure> {
     let format = format_named(format)?;
     let mut mesh = hex_mesh(nodes, hexes)?;
-    mesh.groups = boundary_groups(groups, mesh.hexes.len(), |faces| {
+    mesh.groups = face_groups(groups, mesh.hexes.len(), |faces| {
         let (sides, of_element) = faces.into_iter().unzip();
-        BoundaryGroups::new(sides, Tags { sets: input.mesh.groups.tags().sets.clone(), of_element })
+        FaceGroups::new(sides, Tags { sets: input.mesh.groups.tags().sets.clone(), of_element })
     })?;
     check_parents(parent, mesh.hexes.len(), input.mesh.hexes.len())?;
     let tags = input.mesh.tags.inherited(parent);

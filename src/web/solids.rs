@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use super::convert::{check_ids, points, to_object};
 use super::errors::Failure;
 use super::file::format_named;
-use super::hex_arrays::{HexArrays, boundary_groups, hex_mesh, pairs};
+use super::hex_arrays::{HexArrays, face_groups, hex_mesh, pairs};
 use super::listener::Listener;
 use super::memory::{Affordable, Cost, Limited};
 use super::pool::on_pool;
@@ -132,7 +132,7 @@ pub fn export(
 ) -> Result<Uint8Array, Failure> {
     let format = format_named(format)?;
     let mut mesh = hex_mesh(nodes, hexes)?;
-    mesh.groups = boundary_groups(sides, mesh.hexes.len(), |sides| {
+    mesh.groups = face_groups(sides, mesh.hexes.len(), |sides| {
         let sides: Vec<_> = sides.into_iter().map(|(side, surface)| (side, SurfaceId(surface))).collect();
         surface_groups(&sides)
     })?;

@@ -127,7 +127,7 @@ export class RefinedHexes extends MadeHexes {
   /** The input hex that each hex is part of. */
   readonly parent: Uint32Array;
   /**
-   * The boundary faces that are in groups of the input's, two numbers for each: 6 times its hex and its number there, and
+   * The faces that are in groups of the input's, two numbers for each: 6 times its hex and its number there, and
    * the group's place in `info.groups` of the input. The faces of a hex are those between its nodes 0 3 2 1, 4 5 6 7,
    * 0 1 5 4, 1 2 6 5, 2 3 7 6 and 0 4 7 3.
    */
@@ -154,7 +154,7 @@ export class RefinedHexes extends MadeHexes {
   }
 
   /**
-   * The mesh as a file, with the tags that the input's file gave to its hexes and to their boundary faces.
+   * The mesh as a file, with the tags that the input's file gave to its hexes and to their faces.
    *
    * @throws {@link OptionsError} if there is no such format, or it holds no hexes.
    */

@@ -59,7 +59,7 @@ export interface QuadData extends QuadArrays, MadeData {
   quality: MeshQuality;
 }
 
-/** A hex mesh with boundary faces that belong to something, as arrays. */
+/** A hex mesh with faces that belong to something, as arrays. */
 export interface GroupedHexArrays extends HexArrays {
   groupedFaces: Uint32Array;
 }

@@ -84,11 +84,11 @@ export interface HexInfo {
   euler: number;
   /** Hexes that were numbered inside out, and were turned. */
   turned: number;
-  /** Boundary faces that are in groups. */
+  /** Faces that are in groups. */
   groupedFaces: number;
-  /** Faces in the file that are no boundary faces of the hexes, and were left out. */
+  /** Faces in the file that are no faces of the hexes, and were left out. */
   droppedFaces: number;
-  /** The groups of boundary faces, by their names and the number that the file gave to them. */
+  /** The groups of faces, by their names and the number that the file gave to them. */
   groups: { names: string[]; number: number | null }[];
   /** A fingerprint of nodes and hexes: the same as that of `RefinedHexes`. */
   hash: string;

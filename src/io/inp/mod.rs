@@ -3,7 +3,7 @@
 //! Written: `*NODE`; `*ELEMENT` of type `S4` and `S3` for faces (general-purpose shells, which need not be
 //! plane and which every reader knows as quads and triangles; change the type to `CPS4`, `CPE4` or
 //! `CAX4` for a plane or axisymmetric model) and `C3D8` for hexahedra; an `*ELSET` for each label of a
-//! tag set and for its number (`TAG_4`), sixteen elements a line; a `*SURFACE` for each of groups of boundary faces. Coordinates have at most 20
+//! tag set and for its number (`TAG_4`), sixteen elements a line; a `*SURFACE` for each of groups of faces. Coordinates have at most 20
 //! characters, which is all that Abaqus and CalculiX read: where the shortest exact decimal is longer,
 //! the last of its digits are rounded off. Names keep letters, digits, `_` and `-`; anything else becomes `_`.
 //! Polygons of more than four nodes are refused; polylines and sharp edges are not written.

@@ -90,7 +90,7 @@ fn short_float(line: &mut Text, value: f64) {
     line.word(&digits.into_iter().find(|text| text.len() <= NUMBER_WIDTH).unwrap_or_default());
 }
 
-/// The boundary faces of hexes that are in groups, as surfaces.
+/// The faces of hexes that are in groups, as surfaces.
 fn write_surfaces(file: &mut Text, view: &CellView<'_>) {
     let sides = view.groups.sides();
     for (name, members) in members_of_labels(view.groups.tags()) {

@@ -26,7 +26,7 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     match view.cells {
         Cells::Hexes(_) => {
             write_cells(&mut file, &view, &references, "Hexahedra", 8);
-            write_boundary_faces(&mut file, &view);
+            write_grouped_faces(&mut file, &view);
         }
         Cells::SecondOrder(_) => {
             let message = "MEDIT is written with hexes of eight nodes only: write VTU, VTK, MSH or INP";
@@ -69,9 +69,9 @@ fn write_cells(file: &mut Text, view: &CellView<'_>, references: &[i32], section
     });
 }
 
-/// The boundary faces of hexes that are in groups.
-fn write_boundary_faces(file: &mut Text, view: &CellView<'_>) {
-    let (faces, references) = (view.boundary_faces(), cell_numbers(view.groups.tags()));
+/// The faces of hexes that are in groups.
+fn write_grouped_faces(file: &mut Text, view: &CellView<'_>) {
+    let (faces, references) = (view.grouped_faces(), cell_numbers(view.groups.tags()));
     if faces.len() == 0 {
         return;
     }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::UNTAGGED;
 use crate::geometry::Aabb;
-use crate::io::cell_view::{BoundaryFaces, CellView, Cells};
+use crate::io::cell_view::{CellView, Cells, GroupedFaces};
 use crate::io::tag_numbers::labels;
 use crate::io::text::Text;
 use crate::io::{Document, Format, WriteError};
@@ -34,10 +34,10 @@ struct Part<'a> {
     groups: PhysicalGroups,
 }
 
-/// Cells of the mesh, or boundary faces of hexes.
+/// Cells of the mesh, or faces of hexes.
 enum Elements<'a> {
     Cells(Cells<'a>),
-    Faces(BoundaryFaces),
+    Faces(GroupedFaces),
 }
 
 impl Elements<'_> {
@@ -69,7 +69,7 @@ impl Elements<'_> {
     }
 }
 
-/// The mesh's cells, and the boundary faces of hexes that are in groups, if there are any.
+/// The mesh's cells, and the faces of hexes that are in groups, if there are any.
 fn parts<'a>(view: &CellView<'a>) -> Vec<Part<'a>> {
     let dimension = if view.cells.are_hexes() { 3 } else { 2 };
     let mut groups = PhysicalGroups::of(&view.tags.sets);
@@ -85,7 +85,7 @@ fn parts<'a>(view: &CellView<'a>) -> Vec<Part<'a>> {
     if view.tags.sets.is_empty() {
         groups = PhysicalGroups::of(&[TagSet::default()]);
     }
-    let faces = Elements::Faces(view.boundary_faces());
+    let faces = Elements::Faces(view.grouped_faces());
     let tags = view.groups.tags();
     let before = view.cells.len();
     vec![
@@ -220,7 +220,7 @@ fn write_nodes(file: &mut Text, view: &CellView<'_>, dimension: u8) {
     file.word("$EndNodes\n");
 }
 
-/// Elements in blocks of one entity and one type, each with the number that its place in the mesh gives; boundary faces
+/// Elements in blocks of one entity and one type, each with the number that its place in the mesh gives; faces
 /// of hexes are numbered after these.
 fn write_elements(file: &mut Text, parts: &[Part<'_>]) {
     let blocks: Vec<_> = parts.iter().map(|part| (part, blocks(part))).collect();

@@ -9,9 +9,9 @@ use crate::io::{Document, Format, WriteError};
 /// The file as bytes: the same for any number of threads.
 pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     let view = CellView::new(document, Format::Vtk)?;
-    let (cells, nodes, boundary) = (view.cells, view.positions.len(), view.boundary_faces());
-    let count = cells.len() + boundary.len();
-    let entries = count + cells.corners().len() + boundary.nodes.len();
+    let (cells, nodes, faces) = (view.cells, view.positions.len(), view.grouped_faces());
+    let count = cells.len() + faces.len();
+    let entries = count + cells.corners().len() + faces.nodes.len();
     if i32::try_from(entries).is_err() || i32::try_from(nodes).is_err() {
         let message = "the mesh has more than 2^31 nodes or corners, too many for this format; write VTU";
         return Err(refuse_writing(Format::Vtk, code::TOO_LARGE, message));
@@ -25,8 +25,7 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     });
     file.word("CELLS ").integer(count).word(" ").integer(entries).word("\n");
     file.items(count, |line, cell| {
-        let nodes =
-            cell.checked_sub(cells.len()).map_or_else(|| cells.nodes(cell), |face| boundary.face(face));
+        let nodes = cell.checked_sub(cells.len()).map_or_else(|| cells.nodes(cell), |face| faces.face(face));
         line.integer(nodes.len());
         for node in nodes {
             line.word(" ").integer(node.0);
@@ -34,7 +33,7 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
         line.word("\n");
     });
     file.word("CELL_TYPES ").integer(count).word("\n");
-    let of_faces = face_type(boundary.size);
+    let of_faces = face_type(faces.size);
     column(&mut file, count, |cell| if cell < cells.len() { cell_type(cells, cell) } else { of_faces });
     write_cell_data(&mut file, &view);
     Ok(file.into_bytes())
@@ -51,12 +50,12 @@ fn write_cell_data(file: &mut Text, view: &CellView<'_>) {
     };
     if !view.level.is_empty() {
         scalars(file, LEVEL, "int");
-        let level = view.with_boundary_faces(view.level);
+        let level = view.with_grouped_faces(view.level);
         column(file, level.len(), |cell| level[cell]);
     }
     if !view.parent.is_empty() {
         scalars(file, PARENT, "unsigned_int");
-        let parent = view.with_boundary_faces(view.parent);
+        let parent = view.with_grouped_faces(view.parent);
         column(file, parent.len(), |cell| parent[cell].0);
     }
     if !numbers.is_empty() {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::TAG_NAMES;
-use crate::io::cell_view::{BoundaryFaces, CellView, Cells};
+use crate::io::cell_view::{CellView, Cells, GroupedFaces};
 use crate::io::refusal::{code, refuse_writing};
 use crate::io::tag_numbers::names_to_json;
 use crate::io::text::Text;
@@ -33,15 +33,12 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
         file.header.word("</FieldData>\n");
     }
     file.header.word("<Piece NumberOfPoints=\"").integer(view.positions.len());
-    let boundary = view.boundary_faces();
-    file.header
-        .word("\" NumberOfCells=\"")
-        .integer(view.cells.len() + boundary.len())
-        .word("\">\n<Points>\n");
+    let faces = view.grouped_faces();
+    file.header.word("\" NumberOfCells=\"").integer(view.cells.len() + faces.len()).word("\">\n<Points>\n");
     let coordinates = bytemuck::cast_slice(&view.positions);
     file.array("Points", "Float64", "NumberOfComponents=\"3\"", coordinates);
     file.header.word("</Points>\n<Cells>\n");
-    write_cells(&mut file, view.cells, &boundary)?;
+    write_cells(&mut file, view.cells, &faces)?;
     file.header.word("</Cells>\n<CellData>\n");
     write_cell_data(&mut file, &view);
     file.header.word("</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
@@ -52,9 +49,9 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     Ok(bytes)
 }
 
-/// The cells, then the boundary faces that are in groups.
-fn write_cells(file: &mut File, cells: Cells<'_>, boundary: &BoundaryFaces) -> Result<(), WriteError> {
-    let corners = match boundary.nodes.as_slice() {
+/// The cells, then the faces that are in groups.
+fn write_cells(file: &mut File, cells: Cells<'_>, faces: &GroupedFaces) -> Result<(), WriteError> {
+    let corners = match faces.nodes.as_slice() {
         [] => Cow::Borrowed(cells.corners()),
         nodes => Cow::Owned([cells.corners(), nodes].concat()),
     };
@@ -66,27 +63,27 @@ fn write_cells(file: &mut File, cells: Cells<'_>, boundary: &BoundaryFaces) -> R
         Cells::Hexes(hexes) => Cow::Owned(regular_ends(hexes.len(), 8)?),
         Cells::SecondOrder(hexes) => Cow::Owned(regular_ends(cells.len(), hexes.hex.nodes())?),
     };
-    if boundary.len() > 0 {
+    if faces.len() > 0 {
         let after = cells.corners().len();
-        if u32::try_from(after + boundary.nodes.len()).is_err() {
-            return Err(too_many(cells.len() + boundary.len()));
+        if u32::try_from(after + faces.nodes.len()).is_err() {
+            return Err(too_many(cells.len() + faces.len()));
         }
-        ends.to_mut().extend((1..=boundary.len()).map(|face| (after + boundary.size * face) as u32));
+        ends.to_mut().extend((1..=faces.len()).map(|face| (after + faces.size * face) as u32));
     }
     let (kind, ends) = signed(&ends);
     file.array("offsets", kind, "", &ends);
     let mut types: Vec<u8> = (0..cells.len()).map(|cell| cell_type(cells, cell)).collect();
-    types.resize(types.len() + boundary.len(), face_type(boundary.size));
+    types.resize(types.len() + faces.len(), face_type(faces.size));
     file.array("types", "UInt8", "", &types);
     Ok(())
 }
 
 fn write_cell_data(file: &mut File, view: &CellView<'_>) {
     if !view.level.is_empty() {
-        file.array(LEVEL, "UInt8", "", &view.with_boundary_faces(view.level));
+        file.array(LEVEL, "UInt8", "", &view.with_grouped_faces(view.level));
     }
     if !view.parent.is_empty() {
-        let parents = view.with_boundary_faces(view.parent);
+        let parents = view.with_grouped_faces(view.parent);
         let (kind, parents) = signed(bytemuck::cast_slice(&parents));
         file.array(PARENT, kind, "", &parents);
     }

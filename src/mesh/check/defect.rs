@@ -160,11 +160,18 @@ pub enum Defect {
         /// The hexes of the boundary faces.
         hexes: Vec<HexId>,
     },
-    /// A group of boundary faces has a side that is no boundary face.
-    NoBoundaryFace {
+    /// A group has a face of a hex that does not exist.
+    NoSuchFace {
         /// The hex.
         hex: HexId,
-        /// The side's number there; or of a hex that does not exist.
+        /// The face's number there.
+        face: u8,
+    },
+    /// A face between two hexes is in groups from both of them.
+    FaceGroupedTwice {
+        /// The hex from which it comes for the second time.
+        hex: HexId,
+        /// The face's number there.
         face: u8,
     },
     /// The hexes around a node fill neither a ball nor, on the boundary, half of one: its link is no sphere or disc.
@@ -217,7 +224,8 @@ impl Defect {
             Self::ThreeSharedNodes { .. } => "threeSharedNodes",
             Self::HangingNodeInFace { .. } => "hangingNodeInFace",
             Self::NonManifoldRim { .. } => "nonManifoldRim",
-            Self::NoBoundaryFace { .. } => "noBoundaryFace",
+            Self::NoSuchFace { .. } => "noSuchFace",
+            Self::FaceGroupedTwice { .. } => "faceGroupedTwice",
             Self::OddLink { .. } => "oddLink",
         }
     }
@@ -240,7 +248,8 @@ impl Defect {
             | Self::FaceDisagreement { .. }
             | Self::CrossedFace { .. }
             | Self::ThreeSharedNodes { .. }
-            | Self::NoBoundaryFace { .. }
+            | Self::NoSuchFace { .. }
+            | Self::FaceGroupedTwice { .. }
             | Self::HangingNodeInFace { .. } => Severity::Error,
             Self::UnusedNode { .. }
             | Self::NonManifoldEdge { .. }
@@ -311,10 +320,15 @@ impl std::fmt::Display for Defect {
             }
             Self::NonManifoldRim { edge: [a, b], hexes } => {
                 let (count, hexes) = (hexes.len(), listed(hexes));
-                write!(f, "{count} boundary faces meet at the edge {a}\u{2013}{b}, of hexes {hexes}")
+                let (meet, of) =
+                    if count == 1 { ("boundary face is", "hex") } else { ("boundary faces meet", "hexes") };
+                write!(f, "{count} {meet} at the edge {a}\u{2013}{b}, of {of} {hexes}")
             }
-            Self::NoBoundaryFace { hex, face } => {
-                write!(f, "face {face} of hex {hex} is in a group of boundary faces, but is none")
+            Self::NoSuchFace { hex, face } => {
+                write!(f, "a group has face {face} of hex {hex}, and there is no such hex")
+            }
+            Self::FaceGroupedTwice { hex, face } => {
+                write!(f, "face {face} of hex {hex} is in groups from the hex on its other side, too")
             }
             Self::OddLink { node, euler, boundary } => {
                 let (whole, wanted) = if *boundary { ("half a ball", 1) } else { ("a ball", 2) };

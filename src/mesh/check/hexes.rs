@@ -4,8 +4,8 @@
 //! 2. coordinates are finite;
 //! 3. per hex: repeated nodes, corners that are inside out;
 //! 4. hexes with the same nodes;
-//! 5. per face: three or more hexes, two hexes on one side, the same nodes in another order; groups of boundary faces
-//!    on others;
+//! 5. per face: three or more hexes, two hexes on one side, the same nodes in another order; groups of faces that
+//!    do not exist, or from both sides;
 //! 6. per edge: faces that share three nodes, boundary faces other than two;
 //! 7. per node: unused, links that are neither a sphere nor, on the boundary, a disc;
 //! 8. boundary nodes inside boundary edges and faces that they are no corner of.
@@ -56,7 +56,7 @@ pub fn check_hexes_on(
     defects.extend(parallel::try_gather(faces.nodes.len(), monitor, |f, found| {
         found.extend(face_defect(mesh, faces, FaceId::new(f)));
     })?);
-    defects.extend(mesh.groups.sides().iter().filter_map(|&side| group_defect(faces, side)));
+    defects.extend(mesh.groups.sides().iter().filter_map(|&side| group_defect(mesh, faces, side)));
     defects.extend(edge_defects(topology, monitor)?);
     let unused = (0..links.len()).filter(|&n| !links.is_used(n));
     defects.extend(unused.map(|n| Defect::UnusedNode { node: NodeId::new(n) }));
@@ -156,10 +156,14 @@ fn face_defect(mesh: &HexMesh, faces: &HexFaces, f: FaceId) -> Option<Defect> {
 }
 
 /// Step 5 at one side of a group.
-fn group_defect(faces: &HexFaces, side: Side) -> Option<Defect> {
+fn group_defect(mesh: &HexMesh, faces: &HexFaces, side: Side) -> Option<Defect> {
     let (hex, face) = (hex_of(side), (side % 6) as u8);
-    let is_boundary = faces.of_hex.get(hex.index()).is_some_and(|f| faces.is_boundary(f[usize::from(face)]));
-    (!is_boundary).then_some(Defect::NoBoundaryFace { hex, face })
+    let Some(of_hex) = faces.of_hex.get(hex.index()) else {
+        return Some(Defect::NoSuchFace { hex, face });
+    };
+    let comes_before = |other: &Side| *other < side && mesh.groups.sides().binary_search(other).is_ok();
+    let sides = faces.sides(of_hex[usize::from(face)]);
+    sides.iter().any(comes_before).then_some(Defect::FaceGroupedTwice { hex, face })
 }
 
 /// True if `b` walks around the nodes of `a` the other way: as it should be seen from the hex on the other side.

@@ -2,6 +2,7 @@
 
 mod bins;
 mod edges;
+mod face_sides;
 mod hex_report;
 mod hex_topology;
 mod hexes;
@@ -19,6 +20,7 @@ pub use report::{SurfaceReport, surface_report, two_colouring};
 pub use uses::EdgeUses;
 
 pub(crate) use bins::Bins;
+pub(crate) use face_sides::FaceSides;
 pub(crate) use links::Links;
 pub(crate) use node_sets::NodeSets;
 pub(crate) use report::{disagrees, edge_ids, non_manifold_nodes, used_nodes};

@@ -1,8 +1,8 @@
 //! The input, checked and put right.
 
-use super::labels::{Label, label_of};
-use super::materials::materials_of;
+use super::labels::{self, group_of, label_of};
 use super::options::HexRefineError;
+use super::sheets::materials_of;
 use super::shift::RIDGE_DEGREES;
 use crate::geometry::Point;
 use crate::mesh::check::{Defect, summary};
@@ -92,14 +92,17 @@ fn drop_unused_nodes(mesh: &mut HexMesh) {
 pub(super) fn boundary_surface(input: &HexMesh, monitor: &dyn Monitor) -> Result<BoundarySurface, Cancelled> {
     let faces = HexFaces::within(input.positions.len(), &input.hexes, monitor)?;
     let (mut quads, mut kinds) = (Vec::new(), Vec::new());
-    let labels: Vec<Label> = input.groups.labels().collect();
-    let materials = materials_of(&input.tags);
+    let labels = labels::of_mesh(input);
+    let materials = materials_of(input, &labels, monitor)?;
     let material = |side: Side| materials.get(hex_of(side).index()).copied().unwrap_or(0);
     for batch in batches(faces.nodes.len(), monitor) {
         for f in batch?.map(FaceId::new) {
             let kind = match *faces.sides(f) {
                 [side] => Some(FaceKind::boundary(label_of(&labels, side), material(side))),
-                [a, b] => FaceKind::between(material(a), material(b)),
+                [a, b] => {
+                    let group = || group_of(label_of(&labels, a));
+                    FaceKind::between([a, b].map(material), group)
+                }
                 _ => None,
             };
             if let Some(kind) = kind {

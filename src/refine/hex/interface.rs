@@ -1,7 +1,7 @@
 //! The interface: where refined hexes and coarse ones meet.
 
 use super::blocks::in_blocks;
-use super::labels::{Label, label_of};
+use super::labels::{Label, group_of, label_of};
 use super::skeleton::{Stars, one_way};
 use super::stage::StageMesh;
 use crate::mesh::NodeId;
@@ -15,7 +15,7 @@ use crate::{Cancelled, Monitor, parallel};
 pub(super) struct Interface<'a> {
     pub(super) hexes: &'a [[NodeId; 8]],
     pub(super) refined: &'a [bool],
-    /// The labels of boundary faces.
+    /// The labels of faces.
     pub(super) labels: &'a [Label],
     /// The input hex of each hex, and the material of each of these; empty if there is one material.
     root: &'a [u32],
@@ -76,7 +76,7 @@ impl<'a> Interface<'a> {
         Ok(Self { hexes, refined, labels, root, materials, kept_by_coarse, nodes, place, shell, stars })
     }
 
-    /// The interface with the labels of boundary faces and the materials of the mesh that its hexes are of.
+    /// The interface with the labels and the materials of the mesh that its hexes are of.
     pub(super) fn of_stage(self, mesh: &'a StageMesh) -> Self {
         Self { labels: &mesh.labels, root: &mesh.root, materials: &mesh.materials, ..self }
     }
@@ -96,7 +96,11 @@ impl<'a> Interface<'a> {
                 Some(FaceKind::boundary(label, self.material(id)))
             }
             Some(_) if self.materials.is_empty() => None,
-            Some((second, _)) => FaceKind::between(self.material(id), self.material(star.hexes[second].0)),
+            Some((second, _)) => {
+                let materials = [id, star.hexes[second].0].map(|hex| self.material(hex));
+                let group = || group_of(label_of(self.labels, 6 * id + Side::from(side)));
+                FaceKind::between(materials, group)
+            }
         }
     }
 
@@ -158,6 +162,11 @@ impl InterfaceFace {
     /// The face as a side of the refined hex.
     pub(super) fn refined_side(&self) -> Side {
         6 * self.refined + Side::from(self.refined_face)
+    }
+
+    /// The face as a side of the coarse hex.
+    pub(super) fn coarse_side(&self) -> Side {
+        6 * self.coarse + Side::from(self.coarse_face)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The part of a mesh that smoothing a stage's transition looks at: the hexes around the nodes that may move. All work
 //! and memory for smoothing follows from it, not from the mesh.
 
-use super::labels::label_of;
+use super::labels::{group_of, label_of};
 use super::stage::{StageMesh, StageResult};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
@@ -113,12 +113,10 @@ impl Local {
     ) -> Result<Constraints<'a>, Cancelled> {
         let has_movable = |nodes: &[NodeId; 4]| nodes.iter().any(|n| self.movable[n.index()]);
         let in_mesh = |side: Side| self.hex_ids[hex_of(side).index()];
+        let label = |side: Side| label_of(&mesh.labels, 6 * in_mesh(side).0 + side % 6);
         let kind = |f: FaceId| match *faces.sides(f) {
-            [side] => {
-                let label = label_of(&mesh.labels, 6 * in_mesh(side).0 + side % 6);
-                Some(FaceKind::boundary(label, mesh.material(in_mesh(side))))
-            }
-            [a, b] => FaceKind::between(mesh.material(in_mesh(a)), mesh.material(in_mesh(b))),
+            [side] => Some(FaceKind::boundary(label(side), mesh.material(in_mesh(side)))),
+            [a, b] => FaceKind::between([a, b].map(|s| mesh.material(in_mesh(s))), || group_of(label(a))),
             _ => None,
         };
         let movable = faces.ids().filter(|&f| has_movable(&faces.nodes[f.index()]));

@@ -1,4 +1,4 @@
-//! Faces between materials, that is between hexes with different sets of tags. They stay where they are, as the boundary
+//! Faces between materials, that is between hexes with different sets of tags, or in groups (`sheets`). They stay where they are, as the boundary
 //! does: nodes on them move along them alone.
 //!
 //! Where such a face is one between refined and coarse hexes too, the layer's hex upon it belongs to one of the two
@@ -23,14 +23,8 @@ use super::interface::{Interface, InterfaceFace, Star, StarFace};
 use super::pinch::Pinches;
 use super::stage::StageError;
 use crate::Monitor;
+use crate::mesh::NodeId;
 use crate::mesh::topology::{Sets, Side};
-use crate::mesh::{NodeId, Tags};
-
-/// The material of each hex, by its set of tags; empty if all are of one.
-pub(super) fn materials_of(tags: &Tags) -> Vec<u32> {
-    let is_one = tags.of_element.windows(2).all(|two| two[0] == two[1]);
-    if is_one { Vec::new() } else { tags.of_element.clone() }
-}
 
 /// One of the faces at an edge, and what the edge says of it.
 struct Tie {

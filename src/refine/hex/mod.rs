@@ -59,6 +59,7 @@ mod quarters;
 mod refinement;
 mod regions;
 mod ridges;
+mod sheets;
 mod shift;
 mod skeleton;
 mod stage;

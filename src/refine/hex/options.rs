@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::labels::of_groups;
 use super::stage::{StageMesh, StageReport};
 use crate::Cancelled;
 use crate::forest::{Admits, Closure, admits_method_one};
@@ -112,7 +113,7 @@ pub struct Added {
 /// A conforming hex mesh and where its hexes came from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RefinedHexes {
-    /// The mesh. Tags are the input's, by root; groups of boundary faces too, by what each face is part of.
+    /// The mesh. Tags are the input's, by root; groups of faces too, by what each face is part of.
     pub mesh: HexMesh,
     /// The refinement level of each hex; a transition hex has that of the coarse hex it is part of.
     pub level: Vec<u8>,
@@ -133,7 +134,7 @@ impl RefinedHexes {
     pub(super) fn new(input: &HexMesh, mesh: StageMesh) -> Self {
         let StageMesh { positions, hexes, level, root, labels, .. } = mesh;
         let tags = input.tags.inherited(&root);
-        let groups = input.groups.on(labels);
+        let groups = input.groups.on(of_groups(&labels));
         Self { mesh: HexMesh { positions, hexes, tags, groups }, level, root, ..Self::default() }
     }
 }
@@ -155,7 +156,7 @@ pub enum HexRefineError {
     Inverted(#[from] InvertedHexes),
     /// Some hexes of the input are flat, or inside out between their corners.
     #[error(
-        "{} hexes are flat or inside out somewhere within: {} (counted from 0, in the file's order); move their nodes, \
+        "some hexes ({}) are flat or inside out somewhere within: {} (counted from 0, in the file's order); move their nodes, \
          for example by smoothing the mesh",
         .0.len(), listed(.0)
     )]
@@ -193,7 +194,7 @@ pub enum HexRefineError {
     },
     /// More would have to be refined than is asked for, and the options refuse that.
     #[error(
-        "{elements} elements of level {level} that nothing asks for would be refined {reason}, the first around {}, {}, \
+        "elements of level {level} that nothing asks for ({elements}) would be refined {reason}, the first around {}, {}, \
          {}; allow that growth, ask for a larger region there, or use another method", .near.x, .near.y, .near.z
     )]
     GrowthRefused {
@@ -220,11 +221,11 @@ pub enum HexRefineError {
         limit: u64,
     },
     /// There is no template for so many hexes, though the octree was closed for the method: an error of this library.
-    #[error("the method has no template for {0} hexes; use another method, and report the mesh")]
+    #[error("the method has no template for some hexes ({0}); use another method, and report the mesh")]
     NoTemplate(usize),
     /// Transition hexes stay inside out, and there is nothing left to refine beside them.
     #[error(
-        "{0} transition hexes cannot be untangled; the mesh's own hexes there are too distorted to be divided"
+        "some transition hexes ({0}) cannot be untangled; the mesh's own hexes there are too distorted to be divided"
     )]
     Tangled(usize),
 }

@@ -29,6 +29,7 @@ use super::stage::StageError;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES;
+use crate::mesh::topology::Side;
 use crate::parallel;
 use crate::{Monitor, Stage};
 
@@ -61,6 +62,21 @@ pub(super) struct LayerHex {
     /// materials.
     pub(super) within: u32,
 }
+
+impl LayerHex {
+    /// The side in whose place it is, which is its own from now on, and the number that has there.
+    pub(super) fn replaced(&self) -> (Side, Side) {
+        if self.within == self.face.refined {
+            (self.face.refined_side(), BELOW)
+        } else {
+            (self.face.coarse_side(), ABOVE)
+        }
+    }
+}
+
+/// The faces of a layer hex that the coarse hex and the refined one have, in the order of [`FACES`].
+const BELOW: Side = 0;
+const ABOVE: Side = 1;
 
 /// The corners of a face of the refined hex, as corners 4 to 7 of the layer hex upon it.
 pub(super) fn above(refined_face: u8) -> [u8; 4] {

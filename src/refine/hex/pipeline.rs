@@ -9,7 +9,7 @@
 //!
 //! **Promises.** The mesh conforms and is a manifold with boundary if the input is one; every hex has a positive
 //! Jacobian, at its corners and inside. Boundary nodes stay on the input's boundary faces, its ridges and its corners, and
-//! nodes between materials on the faces that are between these in the input.
+//! nodes between materials and on groups of faces between hexes on these faces of the input.
 
 use std::sync::Mutex;
 
@@ -21,7 +21,7 @@ use super::stage::{NO_ELEMENT, StageMesh, StageReport, StageResult};
 use crate::geometry::Point;
 use crate::mesh::HexMesh;
 use crate::optimize::BoundarySurface;
-use crate::{Monitor, Stage};
+use crate::{Cancelled, Monitor, Stage};
 
 /// Refines a hex mesh.
 ///
@@ -65,7 +65,7 @@ impl HexPlan<'_> {
     /// If the transitions bring the mesh over the limit of hexes or cannot be untangled, or the monitor stops it.
     pub fn carry_out(mut self, monitor: &dyn Monitor) -> Result<RefinedHexes, HexRefineError> {
         let monitor = &Rising { inner: monitor, told: Mutex::default() };
-        let mut made = Made::of_input(&self.input);
+        let mut made = Made::of_input(&self.input, monitor)?;
         if let Some(blocks) = self.blocks {
             made.mesh.octant.clone_from(&blocks.octant);
         }
@@ -94,7 +94,7 @@ impl HexPlan<'_> {
                 }
                 *(if tangled.is_some() { &mut self.added.repairs } else { &mut self.added.conflicts }) +=
                     more.elements;
-                made.back_to(more.coarsest, &self.input);
+                made.back_to(more.coarsest, &self.input, monitor)?;
             }
         }
         let Self { input, added, decided, .. } = self;
@@ -148,8 +148,9 @@ struct Made {
 }
 
 impl Made {
-    fn of_input(input: &HexMesh) -> Self {
-        Self { mesh: StageMesh::of_mesh(input), number: 0, reports: Vec::new(), kept: Vec::new() }
+    fn of_input(input: &HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let mesh = StageMesh::of_mesh(input, monitor)?;
+        Ok(Self { mesh, number: 0, reports: Vec::new(), kept: Vec::new() })
     }
 
     fn push(&mut self, next: StageResult) {
@@ -162,14 +163,15 @@ impl Made {
     }
 
     /// Goes back to the mesh before the stage of level `number`, or to an earlier one.
-    fn back_to(&mut self, number: usize, input: &HexMesh) {
+    fn back_to(&mut self, number: usize, input: &HexMesh, monitor: &dyn Monitor) -> Result<(), Cancelled> {
         while self.number > number {
             match self.kept.pop() {
                 Some((kept, mesh)) => (self.number, self.mesh) = (kept, mesh),
-                None => *self = Self::of_input(input),
+                None => *self = Self::of_input(input, monitor)?,
             }
         }
         self.reports.truncate(self.number);
+        Ok(())
     }
 }
 

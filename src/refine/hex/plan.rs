@@ -244,7 +244,7 @@ impl<'a> HexPlan<'a> {
         {
             return Ok(());
         }
-        let mesh = StageMesh::of_mesh(&self.input);
+        let mesh = StageMesh::of_mesh(&self.input, monitor)?;
         if can_be_joined(&mesh, base.is_refined, monitor)? {
             return Ok(());
         }

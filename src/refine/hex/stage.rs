@@ -6,13 +6,13 @@ use std::borrow::Cow;
 use super::couple::{coupled_middles, middles_of_families};
 use super::divide::Divided;
 use super::interface::Interface;
-use super::labels;
+use super::labels::{self, Labelled};
 use super::layers::layers;
-use super::materials::materials_of;
 use super::open::open;
 use super::options::Method;
 use super::pillow::{LayerHex, Pillow, pillow};
 use super::quarters::{Quarter, place_quarters};
+use super::sheets::materials_of;
 use super::transition::{Transition, Transitions, assemble};
 use crate::geometry::Point;
 use crate::mesh::topology::Side;
@@ -45,10 +45,11 @@ pub struct StageMesh {
     pub root: Vec<u32>,
     /// The number of each hex among the elements of its level, [`NO_ELEMENT`] for transition hexes.
     pub element: Vec<u32>,
-    /// Boundary faces that belong to a group, by side, ascending, each with the group's number.
+    /// Faces that belong to a group, by side, ascending, each with the group's number. Faces between hexes are there from
+    /// both sides, with bit 30 set, and bit 31 on the side that the group does not have.
     pub labels: Vec<(Side, u32)>,
-    /// The material of each input hex, by its set of tags; empty if all are of one. Faces between hexes of different
-    /// materials stay where they are, like the boundary.
+    /// The material of each input hex, by its set of tags and by the groups of faces between hexes; empty if all are of
+    /// one. Faces between hexes of different materials stay where they are, like the boundary.
     pub materials: Vec<u32>,
 }
 
@@ -68,11 +69,11 @@ impl StageMesh {
         }
     }
 
-    /// The same of a mesh with its groups of boundary faces and its materials.
-    pub(super) fn of_mesh(mesh: &HexMesh) -> Self {
-        let labels = mesh.groups.labels().collect();
-        let materials = materials_of(&mesh.tags);
-        Self { labels, materials, ..Self::of_input(mesh.positions.clone(), mesh.hexes.clone()) }
+    /// The same of a mesh with its groups of faces and its materials.
+    pub(super) fn of_mesh(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let labels = labels::of_mesh(mesh);
+        let materials = materials_of(mesh, &labels, monitor)?;
+        Ok(Self { labels, materials, ..Self::of_input(mesh.positions.clone(), mesh.hexes.clone()) })
     }
 
     /// The material of a hex.
@@ -123,7 +124,7 @@ pub enum StageError {
     Cancelled(#[from] crate::Cancelled),
     /// The interface cannot be pillowed unless these hexes, with their families, are refined too. Adding them
     /// and running the stage again always ends.
-    #[error("{} hexes at places where the interface cannot be separated must be refined too", .0.len())]
+    #[error("hexes at places where the interface cannot be separated ({}) must be refined too", .0.len())]
     Conflict(Vec<u32>),
     /// No template of Method I fits these coarse hexes. The forest's closure prevents them.
     #[error("Method I has no template for {} coarse hexes, hex {} first; refine around them", .0.len(), .0[0])]
@@ -263,8 +264,17 @@ fn pillowed_stage(
         within: hex.within,
         divided,
     };
+    let labelled = Labelled {
+        labels: &mesh.labels,
+        before: &mesh.hexes,
+        hexes: &hexes,
+        layer: &layer,
+        node_count: mesh.positions.len(),
+    };
+    let (labels, taken) = labelled.of_layer(|hex| mesh.material(HexId(hex)));
     let transitions = Transitions {
-        labels: labels::of_layer(&mesh.labels, &hexes, &layer, mesh.positions.len()),
+        labels,
+        taken,
         interface_faces: layer.len(),
         divided: layer.iter().zip(divided).map(of_coarse).collect(),
         pinched_edges,

@@ -7,6 +7,7 @@ use super::labels::{self, Label};
 use super::stage::{NO_ELEMENT, NO_OCTANT, StageMesh, StageReport, StageResult};
 use crate::geometry::Point;
 use crate::mesh::NodeId;
+use crate::mesh::topology::Side;
 use crate::parallel;
 use crate::template::hex::Template;
 use crate::{Cancelled, Monitor};
@@ -26,10 +27,12 @@ pub(super) struct Transitions {
     pub(super) whole: Vec<(u32, [NodeId; 8])>,
     /// Those that are divided.
     pub(super) divided: Vec<Transition>,
-    /// Labels of boundary faces of those that are divided.
+    /// Labels of those that are divided.
     pub(super) labels: Vec<Label>,
     /// And of those that stay.
     pub(super) whole_labels: Vec<Label>,
+    /// Sides of the mesh before, ascending, whose labels these have now.
+    pub(super) taken: Vec<Side>,
     /// Coarse hexes of which nothing is left, ascending.
     pub(super) replaced: Vec<u32>,
     pub(super) interface_faces: usize,
@@ -67,11 +70,12 @@ pub(super) fn assemble(
     let labels = if before.labels.is_empty() {
         Vec::new()
     } else {
-        let to_divide = labels::of_some(&before.labels, &divided_ids)
+        let stay = labels::without(&before.labels, &transitions.taken);
+        let to_divide = labels::of_some(&stay, &divided_ids)
             .into_iter()
             .chain(labels::after(divided_ids.len(), transitions.labels));
         let of_cells = labels::of_cells(&to_divide.collect::<Vec<_>>(), &divided, &cells_of);
-        let mut labels = labels::of_some(&before.labels, &kept);
+        let mut labels = labels::of_some(&stay, &kept);
         labels.extend(labels::after(kept.len(), of_cells));
         labels.extend(labels::after(first_transition + in_layer, transitions.whole_labels));
         labels

@@ -1,8 +1,8 @@
-//! Groups of boundary faces in files of hexes.
+//! Groups of faces in files of hexes.
 
 use hexmill::io::{AnyMesh, Document, Format, read, write};
 use hexmill::mesh::topology::side_nodes;
-use hexmill::mesh::{BoundaryGroups, HexMesh, TagSet, Tags};
+use hexmill::mesh::{FaceGroups, HexMesh, TagSet, Tags, check_hexes};
 
 use super::round_trip::{FORMATS, kept};
 use super::worlds::{document, hex_grid, some_sets};
@@ -13,7 +13,7 @@ fn two_cubes(sets: [TagSet; 3]) -> HexMesh {
     let hexes = grid.hexes[..2].to_vec();
     // Sides ascending: y = 0 and x = 0 of the first, y = 0 and x = 2 of the second.
     let of_element = vec![2, 0, 2, 1];
-    let groups = BoundaryGroups::new(vec![2, 5, 6 + 2, 6 + 3], Tags { sets: sets.to_vec(), of_element });
+    let groups = FaceGroups::new(vec![2, 5, 6 + 2, 6 + 3], Tags { sets: sets.to_vec(), of_element });
     HexMesh { hexes, groups: groups.expect("ascending"), ..grid }
 }
 
@@ -77,6 +77,30 @@ fn groups_without_numbers_get_some_and_keep_their_names() {
     }
 }
 
+/// Each face between hexes looks the way that it did, and in a format in which one can come from both sides it comes once.
+#[test]
+fn groups_between_hexes_read_back_from_every_format() {
+    let none = || TagSet::default();
+    for side in [3, 6 + 5] {
+        let mesh = two_cubes([none(), none(), none()]);
+        let tags = Tags { sets: vec![named("baffle", 5)], of_element: vec![0] };
+        let mesh = HexMesh { groups: FaceGroups::new(vec![side], tags).expect("one"), ..mesh };
+        assert!(check_hexes(&mesh).iter().all(|defect| defect.kind() == "unusedNode"));
+        for format in FORMATS {
+            let again = read(&write(&Document::from(mesh.clone()), format).unwrap(), format).unwrap();
+            assert_eq!(groups_of(hexes(&again), format), groups_of(&mesh, format), "{format}");
+            assert_eq!((again.dropped_faces, again.dropped_groups.len()), (0, 0), "{format}");
+        }
+    }
+    let twice = "*SURFACE, NAME=left\n1, S4\n*SURFACE, NAME=right\n2, S6\n";
+    let mesh = two_cubes([none(), none(), none()]);
+    let hex = |h: usize| mesh.hexes[h].map(|n| (n.0 + 1).to_string()).join(", ");
+    let part = format!("*NODE\n{}*ELEMENT, TYPE=C3D8\n1, {}\n2, {}\n", nodes(", ", ""), hex(0), hex(1));
+    let document = read(format!("{part}{twice}").as_bytes(), Format::Inp).unwrap();
+    let both = TagSet { groups: vec!["left".into(), "right".into()], ..TagSet::default() };
+    assert_eq!(groups_of(hexes(&document), Format::Inp), [(3, both)]);
+}
+
 /// The nodes of the corners of two cubes as lines, each after its number, joined by `between`.
 fn nodes(between: &str, end: &str) -> String {
     let grid = hex_grid(2);
@@ -110,10 +134,11 @@ fn msh_2_elements_in_several_groups_come_together() {
     );
     let document = read(text.as_bytes(), Format::Msh).unwrap();
     let both = TagSet { groups: vec!["inlet".into(), "all".into()], number: Some(7), ..TagSet::default() };
-    assert_eq!(groups_of(hexes(&document), Format::Msh), [(5, both), (9, named("all", 8))]);
-    // The face between the hexes, the quad that is none of their faces, and the triangle; no points nor curves.
-    assert_eq!(document.dropped_faces, 3);
-    assert_eq!(document.dropped_groups, ["9", "all", "tip", "axis"]);
+    let between = TagSet { number: Some(9), ..TagSet::default() };
+    assert_eq!(groups_of(hexes(&document), Format::Msh), [(3, between), (5, both), (9, named("all", 8))]);
+    // The quad that is none of their faces, and the triangle; no points nor curves.
+    assert_eq!(document.dropped_faces, 2);
+    assert_eq!(document.dropped_groups, ["all", "tip", "axis"]);
     assert_eq!(document.tags.of(1).unwrap().number, Some(1));
 }
 
@@ -132,12 +157,13 @@ fn inp_surfaces_and_shells_are_groups() {
                     *SURFACE, NAME=points, TYPE=NODE\n1\n*SURFACE, NAME=shell\nskin, SPOS\n\
                     *NSET, NSET=fixed\n1, 2\n*NSET, NSET=FIXED\n3\n*NSET, NSET=_picked, INTERNAL\n1\n";
     let of = |name: &str| TagSet { groups: vec![name.into()], ..TagSet::default() };
-    let expected = [(0, of("bottom")), (5, of("left")), (6, of("bottom")), (9, of("skin"))];
+    let left = [(5, of("left")), (6 + 5, of("left"))];
+    let expected = [(0, of("bottom")), left[0].clone(), (6, of("bottom")), (9, of("skin")), left[1].clone()];
     let document = read(format!("{part}{surfaces}").as_bytes(), Format::Inp).unwrap();
     assert_eq!(groups_of(hexes(&document), Format::Inp), expected);
-    // The face between the hexes, and an element that is not there.
-    assert_eq!(document.dropped_faces, 2);
-    assert_eq!(document.dropped_groups, ["left", "fixed"]);
+    // An element that is not there.
+    assert_eq!(document.dropped_faces, 1);
+    assert_eq!(document.dropped_groups, ["fixed"]);
 
     // As Abaqus/CAE writes them: sets of instances in the assembly.
     let assembly = format!(

@@ -3,9 +3,7 @@
 
 use hexmill::geometry::{Aabb, Point};
 use hexmill::io::{Document, Format, write};
-use hexmill::mesh::{
-    BoundaryGroups, GridOptions, HexMesh, SecondOrder, SecondOrderHex, TagSet, Tags, hex_grid,
-};
+use hexmill::mesh::{FaceGroups, GridOptions, HexMesh, SecondOrder, SecondOrderHex, TagSet, Tags, hex_grid};
 
 /// The corners around each node on an edge, then on a face.
 struct Order {
@@ -40,7 +38,7 @@ fn mesh() -> HexMesh {
     let mut mesh = hex_grid(bounds, &options).expect("a grid");
     let bottom = TagSet { groups: vec!["bottom".to_owned()], ..TagSet::default() };
     let tags = Tags { sets: vec![bottom], of_element: vec![0] };
-    mesh.groups = BoundaryGroups::new(vec![0], tags).expect("one side");
+    mesh.groups = FaceGroups::new(vec![0], tags).expect("one side");
     mesh
 }
 

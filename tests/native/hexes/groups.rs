@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use hexmill::Silent;
 use hexmill::geometry::Point;
 use hexmill::mesh::topology::{HexFaces, side_nodes};
-use hexmill::mesh::{BoundaryGroups, HexMesh, TagSet, Tags, check_hexes};
+use hexmill::mesh::{FaceGroups, HexMesh, TagSet, Tags, check_hexes};
 use hexmill::refine::hex::{HexOptions, Method, RefinedHexes, refine_hexes};
 use hexmill::sizing::Region;
 
@@ -27,7 +27,7 @@ fn grouped(mesh: &HexMesh, group: impl Fn(Point, Point) -> Option<u32>) -> HexMe
     let (sides, of_element): (Vec<u32>, Vec<u32>) = labels.into_iter().unzip();
     let count = of_element.iter().max().map_or(0, |&most| most + 1);
     let sets = (0..count).map(|k| TagSet { groups: vec![format!("group {k}")], ..TagSet::default() });
-    let groups = BoundaryGroups::new(sides, Tags { sets: sets.collect(), of_element });
+    let groups = FaceGroups::new(sides, Tags { sets: sets.collect(), of_element });
     HexMesh { groups: groups.expect("sorted"), ..mesh.clone() }
 }
 
@@ -149,18 +149,20 @@ fn hexes_that_are_turned_take_their_groups_along() {
     labels.sort_unstable();
     let (sides, of_element) = labels.into_iter().unzip();
     let sets = mesh.groups.tags().sets.clone();
-    mesh.groups = BoundaryGroups::new(sides, Tags { sets, of_element }).expect("sorted");
+    mesh.groups = FaceGroups::new(sides, Tags { sets, of_element }).expect("sorted");
     let refined = refine_hexes(&mesh, &HexOptions { levels: Some(1), ..HexOptions::default() }, &Silent);
     assert_eq!(refined.expect("cubes").mesh, expected.expect("cubes").mesh);
 }
 
 #[test]
-fn groups_within_the_mesh_are_refused() {
+fn groups_of_what_is_no_face_are_refused() {
     let mut mesh = cubes(2);
     let tags = |count: usize| Tags { sets: vec![TagSet::default()], of_element: vec![0; count] };
-    for sides in [vec![1], vec![48]] {
-        mesh.groups = BoundaryGroups::new(sides, tags(1)).expect("ascending");
-        assert_eq!(check_hexes(&mesh).iter().map(|d| d.kind()).collect::<Vec<_>>(), ["noBoundaryFace"]);
+    // Face x = 1 of the first cube is face x = 0 of the second.
+    for (sides, kind) in [(vec![48], "noSuchFace"), (vec![3, 6 + 5], "faceGroupedTwice")] {
+        let count = sides.len();
+        mesh.groups = FaceGroups::new(sides, tags(count)).expect("ascending");
+        assert_eq!(check_hexes(&mesh).iter().map(|d| d.kind()).collect::<Vec<_>>(), [kind]);
         let refused = refine_hexes(&mesh, &HexOptions::default(), &Silent).unwrap_err();
         assert_eq!(refused.code(), "mesh-invalid");
     }

@@ -5,6 +5,7 @@ mod accepted;
 mod counts;
 mod groups;
 mod growth;
+mod inner_groups;
 mod judge;
 mod levels;
 mod materials;

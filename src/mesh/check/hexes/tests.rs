@@ -246,7 +246,7 @@ fn defects_speak_and_serialise_with_their_ids() {
             "the faces 1–2–3–4 of hex 1",
         ),
         (Defect::HangingNodeInFace { node: NodeId(7), face, hex: HexId(1) }, "node 7 hangs inside the face"),
-        (Defect::NonManifoldRim { edge: [1, 2].map(NodeId), hexes: vec![HexId(4)] }, "1 boundary faces meet"),
+        (Defect::NonManifoldRim { edge: [1, 2].map(NodeId), hexes: vec![HexId(4)] }, "1 boundary face is at"),
         (
             Defect::OddLink { node: NodeId(7), euler: 2, boundary: true },
             "the hexes around node 7 do not fill half",

@@ -1,28 +1,30 @@
-//! Groups of boundary faces of a hex mesh: where loads, supports, inlets are.
+//! Groups of faces of a hex mesh: where loads, supports, inlets are on its boundary, and cracks, baffles, contacts within.
 
 use super::Tags;
 use super::topology::Side;
 
-/// Boundary faces of a hex mesh with the tags that a file gave to them. A face is known by its hex and its number
-/// there, so that groups take no memory for faces that are in none.
+/// Faces of a hex mesh with the tags that a file gave to them. A face is known by its hex and its number there, so that
+/// groups take no memory for faces that are in none. One between two hexes is known by one of them, from which it looks
+/// to the other.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct BoundaryGroups {
+pub struct FaceGroups {
     sides: Vec<Side>,
     tags: Tags,
 }
 
-impl BoundaryGroups {
+impl FaceGroups {
     /// Groups of the given sides, ascending, each with an entry in `tags`; `None` if they are not ascending, or
-    /// the tags are not theirs. That each side is a boundary face is for `check_hexes` to tell.
+    /// the tags are not theirs. That each is a side of a hex, and no face is there from both its hexes, is for `check_hexes`
+    /// to tell.
     ///
     /// ```
-    /// use hexmill::mesh::{BoundaryGroups, TagSet, Tags};
+    /// use hexmill::mesh::{FaceGroups, TagSet, Tags};
     /// let inlet = TagSet { groups: vec!["inlet".into()], ..TagSet::default() };
     /// let tags = Tags { sets: vec![inlet], of_element: vec![0, 0] };
     /// // The faces z = 0 and x = 1 of hex 2.
-    /// let groups = BoundaryGroups::new(vec![12, 15], tags.clone()).unwrap();
+    /// let groups = FaceGroups::new(vec![12, 15], tags.clone()).unwrap();
     /// assert_eq!(groups.sides(), [12, 15]);
-    /// assert!(BoundaryGroups::new(vec![15, 12], tags).is_none());
+    /// assert!(FaceGroups::new(vec![15, 12], tags).is_none());
     /// ```
     pub fn new(sides: Vec<Side>, tags: Tags) -> Option<Self> {
         let fits = tags.of_element.len() == sides.len()
