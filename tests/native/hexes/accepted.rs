@@ -1,73 +1,108 @@
-//! The worlds of `acceptance`: all random sets of one level, and of the others as many and as fine as is quick;
-//! `examples/acceptance.rs` does all of them.
+//! The worlds of `acceptance`: all random sets, of one level and of two, all stars of octants, all sets on the beam, and the
+//! named worlds as fine as is quick; `examples/acceptance.rs` tells more of them, and has the named ones in full.
 
-use std::collections::BTreeSet;
-
-use hexmill::mesh::numbering::hex::{CORNER_AT, SYMMETRIES};
 use hexmill::refine::hex::{Added, Method};
 use rayon::prelude::*;
 
-use super::acceptance::{Boundary, Judged, World, block, judged, named, octants, random_on_beam, random_set};
+use super::acceptance::{
+    Boundary, MOST_GROWTH, World, block, judged, named, octants, random_on_beam, random_set,
+};
 use super::meshes::i_beam;
 
 const BOTH: [Method; 2] = [Method::One, Method::Two];
 
-/// Refines the worlds with a method; returns the sum of what was refined besides what was asked for.
-fn accept(method: Method, worlds: &[World]) -> Added {
-    let found: Vec<Added> = worlds
-        .par_iter()
-        .map(|world| {
-            let Judged { refined, worst, mean } = judged(world, method);
-            println!(
-                "{}, {method:?}: {} hexes, worst {worst:.3}, mean {mean:.3}",
-                world.name,
-                refined.level.len()
-            );
-            let least = world.least[usize::from(method == Method::Two)];
-            assert!(worst >= least, "{}, {method:?}: {worst}", world.name);
-            refined.added
-        })
-        .collect();
+/// Refines the worlds with a method; returns the sum of what was refined besides what was asked for, and how much the refined
+/// sets grew in the mean.
+fn accept(method: Method, worlds: &[World]) -> (Added, f64) {
+    let of_world = |world: &World| {
+        let found = judged(world, method);
+        println!(
+            "{}, {method:?}: {} hexes, worst {:.3}, mean {:.3}",
+            world.name,
+            found.refined.level.len(),
+            found.worst,
+            found.mean
+        );
+        let least = world.least[usize::from(method == Method::Two)];
+        assert!(found.worst >= least, "{}, {method:?}: {}", world.name, found.worst);
+        (found.refined.added, found.growth())
+    };
+    let found: Vec<(Added, f64)> = worlds.par_iter().map(of_world).collect();
     let mut sum = Added::default();
-    for added in found {
+    for (added, _) in &found {
         sum.closure.method += added.closure.method;
         sum.conflicts += added.conflicts;
         sum.repairs += added.repairs;
     }
-    sum
+    (sum, found.iter().map(|(_, growth)| growth).sum::<f64>() / found.len() as f64)
+}
+
+/// All random sets of so many levels.
+fn random_sets(method: Method, levels: u8) {
+    let worlds: Vec<World> = (0..100).map(|seed| random_set(4, seed, 100, levels)).collect();
+    let (added, growth) = accept(method, &worlds);
+    if method == Method::One {
+        assert!(added.closure.method > 0, "Method I fills up");
+    } else {
+        assert_eq!(added.closure.method, 0);
+        assert!(growth <= MOST_GROWTH, "{growth}");
+    }
 }
 
 #[test]
-fn random_sets() {
-    let one_level = (0..100).map(|seed| random_set(4, seed, 100, 1));
-    let two_levels = (0..100).step_by(9).map(|seed| random_set(4, seed, 100, 2));
-    let worlds: Vec<World> = one_level.chain(two_levels).collect();
-    let [one, two] = BOTH.map(|method| accept(method, &worlds));
-    assert!(one.closure.method > 0, "Method I fills up");
-    assert_eq!(two.closure.method, 0);
+fn random_sets_of_one_level_by_method_one() {
+    random_sets(Method::One, 1);
 }
 
 #[test]
-fn one_of_each_kind_of_octants_around_a_node() {
-    let image = |mask: u32, symmetry: [u8; 8]| -> u32 {
-        let moved = |octant: usize| CORNER_AT[usize::from(symmetry[usize::from(CORNER_AT[octant])])];
-        (0..8).filter(|octant| mask >> octant & 1 == 1).map(|octant| 1 << moved(octant)).sum()
-    };
-    let least = |mask: u32| SYMMETRIES.iter().map(|&symmetry| image(mask, symmetry)).min();
-    let kinds: BTreeSet<u32> = (1..255).filter_map(least).collect();
-    assert_eq!(kinds.len(), 20);
-    let worlds: Vec<World> = kinds.into_iter().map(octants).collect();
-    let added = accept(Method::Two, &worlds);
+fn random_sets_of_one_level_by_method_two() {
+    random_sets(Method::Two, 1);
+}
+
+#[test]
+fn random_sets_of_two_levels_by_method_one() {
+    random_sets(Method::One, 2);
+}
+
+#[test]
+fn random_sets_of_two_levels_by_method_two() {
+    random_sets(Method::Two, 2);
+}
+
+/// All sets of octants around a node, but none and all.
+fn stars(method: Method) -> Added {
+    let worlds: Vec<World> = (1..255).map(octants).collect();
+    accept(method, &worlds).0
+}
+
+#[test]
+fn octants_around_a_node_by_method_one() {
+    stars(Method::One);
+}
+
+#[test]
+fn octants_around_a_node_by_method_two() {
+    let added = stars(Method::Two);
     assert!(added.conflicts > 0, "some cannot be separated");
     assert_eq!(added.repairs, 0);
 }
 
+fn on_the_beam(method: Method) -> Added {
+    let worlds: Vec<World> = (0..40).map(|seed| random_on_beam(seed, 40)).collect();
+    accept(method, &worlds).0
+}
+
 #[test]
-fn random_sets_on_the_beam() {
-    let worlds = [8, 30].map(|seed| random_on_beam(seed, 40));
-    let [one, two] = BOTH.map(|method| accept(method, &worlds));
-    assert_eq!((one.conflicts, one.repairs, two.closure.method), (0, 0, 0));
-    assert!(two.conflicts > 0);
+fn random_sets_on_the_beam_by_method_one() {
+    let added = on_the_beam(Method::One);
+    assert_eq!((added.conflicts, added.repairs), (0, 0));
+}
+
+#[test]
+fn random_sets_on_the_beam_by_method_two() {
+    let added = on_the_beam(Method::Two);
+    assert_eq!(added.closure.method, 0);
+    assert!(added.conflicts > 0);
 }
 
 #[test]
@@ -82,7 +117,7 @@ fn nothing_is_added_at_the_foot_of_the_web() {
             World { name, input: i_beam(), regions, boundary: Boundary::Planar, least }
         })
     });
-    let added = accept(Method::Two, &worlds.collect::<Vec<_>>());
+    let (added, _) = accept(Method::Two, &worlds.collect::<Vec<_>>());
     assert_eq!((added.conflicts, added.repairs), (0, 0));
 }
 
@@ -94,13 +129,13 @@ fn more_is_refined_where_neither_side_can_leave_a_ridge() {
     let regions = cells.map(|at| block(at, at.map(|x| x + 1.0), 2)).into();
     let least = [0.43, 0.20];
     let world = World { name: "ridge".into(), input: i_beam(), regions, boundary: Boundary::Planar, least };
-    let added = accept(Method::Two, &[world]);
+    let (added, _) = accept(Method::Two, &[world]);
     assert!(added.conflicts > 0);
 }
 
 #[test]
 fn named_worlds() {
     let worlds = named(1);
-    let [one, two] = BOTH.map(|method| accept(method, &worlds));
+    let [one, two] = BOTH.map(|method| accept(method, &worlds).0);
     assert_eq!((one.conflicts, one.repairs, two.closure.method), (0, 0, 0));
 }
