@@ -90,7 +90,7 @@ pub enum HexingError {
         edge_length: f64,
     },
     /// Some hexes could not be made positive.
-    #[error("{0} hexes cannot be made positive; give another edge length, and report the solid")]
+    #[error("some hexes ({0}) cannot be made positive; give another edge length, and report the solid")]
     Tangled(usize),
     /// The monitor asked to stop.
     #[error(transparent)]

@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-12;
 /// Hexes that cannot be put right by numbering them otherwise, ascending.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{} hexes are inside out at some of their corners, but not at all of them: {} (counted from 0, in the file's order); \
+    "some hexes ({}) are inside out at some of their corners, but not at all of them: {} (counted from 0, in the file's order); \
      list their nodes bottom before top, both in the same sense, or move nodes that fold them",
     .0.len(), listed(.0)
 )]
@@ -143,7 +143,7 @@ mod tests {
         let before = mesh.clone();
         let error = orient_hexes(&mut mesh).unwrap_err();
         assert_eq!(error, InvertedHexes(vec![HexId(0)]));
-        assert!(error.to_string().starts_with("1 hexes are inside out"));
+        assert!(error.to_string().starts_with("some hexes (1) are inside out"));
         assert_eq!(mesh, before);
     }
 

@@ -144,10 +144,7 @@ fn a_body_that_is_too_thin_is_told_where_there_are_others() {
     let folder = folder_holding("two.obj", &with_another(0.01, 3.0));
     let stdout = succeed(&folder, &["hex", "two.obj", "-o", "two.vtu", "-e", "0.5"]);
     assert!(stdout.contains("64 hexes"), "{stdout}");
-    assert!(
-        stdout.contains("1 bodies were lost, since no hex lies within them, the largest at 3.01"),
-        "{stdout}"
-    );
+    assert!(stdout.contains("1 body was lost, since no hex lies within it, the largest at 3.01"), "{stdout}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod convert;
 mod grid;
 mod hex;
 mod interrupt;
+mod plan;
 mod quad;
 mod refine;
 mod refine_hexes;

@@ -6,7 +6,7 @@ use tempfile::TempDir;
 use super::{Run, folder_holding, hexmill, json, succeed};
 
 /// A folder with a grid of 4 by 4 by 4 cubes of length 1, from 0 to 4: `grid.vtu`.
-fn folder_with_grid() -> TempDir {
+pub(super) fn folder_with_grid() -> TempDir {
     let folder = folder_holding("part.obj", "v 0 0 0\nv 4 4 0\nv 0 4 4\nf 1 2 3\n");
     succeed(&folder, &["grid", "part.obj", "--spacing", "1", "-o", "grid.vtu"]);
     folder
@@ -52,7 +52,7 @@ fn hexes_that_were_turned_are_told() {
                 1 0 1 0\n1 1 1 0\n0 1 1 0\nHexahedra\n1\n5 6 7 8 1 2 3 4 0\nEnd\n";
     let folder = folder_holding("cube.mesh", cube);
     let run = hexmill(&folder, &["refine", "cube.mesh", "-o", "fine.vtu", "--levels", "1"]);
-    let told = "  1 hexes of the input were numbered inside out, and were turned\n";
+    let told = "  1 hex of the input was numbered inside out, and turned\n";
     assert!(run.stdout.contains(told), "{} {}", run.stdout, run.stderr);
 }
 

@@ -13,6 +13,7 @@ use super::progress::Progress;
 use super::region::{load_triangles, triangles_of};
 use super::report::{InputReport, Report, peak_memory_bytes};
 use super::tell::print;
+use super::words::counted;
 
 /// Reads a mesh, looks it over and tells; refuses a mesh that does not conform.
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
@@ -92,19 +93,19 @@ fn in_words(args: &CheckArgs, report: &Report) -> String {
 fn topology_line(topology: &Topology) -> String {
     match topology {
         Topology::Surface(t) => format!(
-            "  components {}, boundary loops {} ({} edges), Euler number {}, {}, {}",
+            "  components {}, boundary loops {} ({}), Euler number {}, {}, {}",
             t.components,
             t.boundary_loops,
-            t.boundary_edges,
+            counted(t.boundary_edges, "edge", "edges"),
             t.euler,
             if t.is_manifold() { "manifold" } else { "not manifold" },
             if t.orientable { "orientable" } else { "not orientable" },
         ),
         Topology::Solid(t) => format!(
-            "  components {}, boundary surfaces {} ({} faces), Euler number {}, {}",
+            "  components {}, boundary surfaces {} ({}), Euler number {}, {}",
             t.components,
             t.boundary_components,
-            t.boundary_faces,
+            counted(t.boundary_faces, "face", "faces"),
             t.euler,
             if t.is_manifold() { "manifold" } else { "not manifold" },
         ),

@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::files::{check_outputs, format_to_read, format_to_write, load, save};
 use super::progress::Progress;
 use super::tell::print;
+use super::words::counted;
 
 /// Reads a mesh and writes it in another format.
 pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {
@@ -26,5 +27,6 @@ pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {
         return Ok(());
     }
     let (nodes, cells) = (document.mesh.node_count(), document.mesh.cell_count());
-    print(&format!("{}: {nodes} nodes, {cells} cells, {} bytes\n", args.output.display(), bytes.len()))
+    let (nodes, cells) = (counted(nodes, "node", "nodes"), counted(cells, "cell", "cells"));
+    print(&format!("{}: {nodes}, {cells}, {} bytes\n", args.output.display(), bytes.len()))
 }

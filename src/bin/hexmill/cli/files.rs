@@ -10,6 +10,7 @@ use hexmill::mesh::PolygonMesh;
 
 use super::failure::Failure;
 use super::tell::tell;
+use super::words::counted;
 
 /// What an interruption has to know of the files that are written.
 struct Outputs {
@@ -112,12 +113,13 @@ impl Loaded {
         let path = self.path.display();
         if *count > 0 && !quiet {
             tell(&format!(
-                "warning: {path}: {count} faces beside the hexes are left out: they are no boundary faces of these\n",
+                "warning: {path}: {} left out, as no face of these\n",
+                counted(*count, "face beside the hexes is", "faces beside the hexes are")
             ));
         }
         if !groups.is_empty() && !quiet {
             tell(&format!(
-                "warning: {path}: these groups are not of hexes and boundary faces alone, and what else is in them is left \
+                "warning: {path}: these groups are not of hexes and their faces alone, and what else is in them is left \
                  out: {}\n",
                 groups.join(", ")
             ));

@@ -11,6 +11,7 @@ use super::files::{check_outputs, format_for_hexes, format_to_read, load, save};
 use super::memory::Limit;
 use super::progress::Progress;
 use super::tell::print;
+use super::words::counted;
 
 /// Makes a grid of hexes around a mesh.
 pub(crate) fn run(args: &GridArgs, quiet: bool) -> Result<(), Failure> {
@@ -35,7 +36,8 @@ pub(crate) fn run(args: &GridArgs, quiet: bool) -> Result<(), Failure> {
     if quiet {
         return Ok(());
     }
-    print(&format!("{}: {nodes} nodes, {hexes} hexes, {} bytes\n", args.output.display(), bytes.len()))
+    let (nodes, hexes) = (counted(nodes, "node", "nodes"), counted(hexes, "hex", "hexes"));
+    print(&format!("{}: {nodes}, {hexes}, {} bytes\n", args.output.display(), bytes.len()))
 }
 
 /// The grid was not made.

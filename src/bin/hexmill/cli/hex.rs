@@ -14,6 +14,7 @@ use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
 use super::report::Report;
+use super::words::counted;
 
 /// Reads a closed surface, fills it with hexes, writes and reports.
 pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
@@ -88,14 +89,18 @@ fn work_in_words(work: &HexingReport) -> Vec<String> {
     let captured = kinds.map(|(kind, n)| format!("{} of {} {kind}", n.captured, n.found)).join(", ");
     lines.push(format!("captured {captured}"));
     let kinds = [
-        ("curves were lost", &features.suppressed),
-        ("surfaces were lost", &features.lost_surfaces),
-        ("bodies were lost, since no hex lies within them", lost_bodies),
+        ("curve was lost", "curves were lost", &features.suppressed),
+        ("surface was lost", "surfaces were lost", &features.lost_surfaces),
+        (
+            "body was lost, since no hex lies within it",
+            "bodies were lost, since no hex lies within them",
+            lost_bodies,
+        ),
     ];
-    for (what, lost) in kinds.into_iter().filter(|(_, lost)| !lost.is_empty()) {
+    for (one, many, lost) in kinds.into_iter().filter(|(.., lost)| !lost.is_empty()) {
         let largest = lost.iter().max_by(|a, b| a.size.total_cmp(&b.size));
         let [x, y, z] = largest.map_or([0.0; 3], |lost| lost.place);
-        lines.push(format!("{} {what}, the largest at {x}, {y}, {z}", lost.len()));
+        lines.push(format!("{}, the largest at {x}, {y}, {z}", counted(lost.len(), one, many)));
     }
     if euler != solid_euler {
         lines.push(format!(

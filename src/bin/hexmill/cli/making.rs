@@ -28,10 +28,10 @@ impl Making {
         if let Some((_, mesh)) = inputs.first() {
             format_to_read(mesh)?;
         }
-        let report = self.report.as_deref().map(|path| ("--report", path));
+        let report = self.working.report.as_deref().map(|path| ("--report", path));
         let outputs: Vec<_> = std::iter::once(("--output", self.output.as_path())).chain(report).collect();
         check_outputs(inputs, &outputs)?;
-        self.threads.map_or(Ok(()), use_threads)
+        self.working.threads.map_or(Ok(()), use_threads)
     }
 
     /// Writes the mesh, and begins the record of the command.
@@ -48,7 +48,7 @@ impl Making {
         let output = FileReport::new(&self.output, format, bytes.len() as u64);
         drop(bytes);
         let mut mesh = progress.stage("measure", || MeshReport::of(made.document, made.capped));
-        if self.report.is_some() {
+        if self.working.report.is_some() {
             progress.stage("check", || mesh.check(&made.document.mesh));
         }
         let (loaded, before) = made.input;
@@ -66,13 +66,13 @@ impl Making {
     ) -> Result<(), Failure> {
         (report.stages, report.seconds) = progress.finish();
         report.peak_memory_bytes = peak_memory_bytes();
-        self.report.as_deref().map_or(Ok(()), |path| report.save(path))?;
+        self.working.report.as_deref().map_or(Ok(()), |path| report.save(path))?;
         if quiet { Ok(()) } else { print(&in_words(&self.output, &report)) }
     }
 }
 
 /// Makes the library's work run on `threads` threads.
-fn use_threads(threads: u16) -> Result<(), Failure> {
+pub(super) fn use_threads(threads: u16) -> Result<(), Failure> {
     rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|error| {
         Failure::refused(
             "threads-not-started",

@@ -12,6 +12,8 @@ use hexmill::mesh::{
 };
 use serde::Serialize;
 
+use super::words::counted;
+
 /// Defects that are listed one by one; all of them are counted.
 const LISTED_DEFECTS: usize = 1000;
 
@@ -25,7 +27,7 @@ pub(crate) struct Counts {
     pub(crate) quads: usize,
     pub(crate) polygons: usize,
     pub(crate) hexes: usize,
-    /// Boundary faces of hexes that are in groups.
+    /// Faces of hexes that are in groups.
     pub(crate) grouped_faces: usize,
     bounds: Option<Bounds>,
 }
@@ -62,15 +64,15 @@ impl Counts {
 
     /// In words, such as `8 nodes, 6 quads`.
     pub(crate) fn in_words(&self) -> String {
-        let mut words = vec![format!("{} nodes", self.nodes)];
+        let mut words = vec![counted(self.nodes, "node", "nodes")];
         let kinds = [
-            (self.triangles, "triangles"),
-            (self.quads, "quads"),
-            (self.polygons, "larger polygons"),
-            (self.hexes, "hexes"),
-            (self.grouped_faces, "boundary faces in groups"),
+            (self.triangles, "triangle", "triangles"),
+            (self.quads, "quad", "quads"),
+            (self.polygons, "larger polygon", "larger polygons"),
+            (self.hexes, "hex", "hexes"),
+            (self.grouped_faces, "face in a group", "faces in groups"),
         ];
-        words.extend(kinds.iter().filter(|(n, _)| *n > 0).map(|(n, kind)| format!("{n} {kind}")));
+        words.extend(kinds.iter().filter(|kind| kind.0 > 0).map(|&(n, one, many)| counted(n, one, many)));
         if self.faces == 0 && self.hexes == 0 {
             words.push("no faces".to_owned());
         }

@@ -10,6 +10,7 @@ mod hex;
 mod making;
 mod memory;
 mod mesh_report;
+mod plan;
 mod progress;
 mod quad;
 mod refine;
@@ -18,6 +19,7 @@ mod refine_surface;
 mod region;
 mod report;
 mod tell;
+mod words;
 
 use std::process::ExitCode;
 
@@ -30,6 +32,7 @@ pub fn run() -> ExitCode {
     files::remove_unfinished_when_interrupted();
     let cli = Cli::parse();
     let done = match cli.command {
+        Command::Refine(args) if args.plan => plan::run(&args, cli.quiet),
         Command::Refine(args) => refine::run(&args, cli.quiet),
         Command::Hex(args) => hex::run(&args, cli.quiet),
         Command::Check(args) => check::run(&args, cli.quiet),

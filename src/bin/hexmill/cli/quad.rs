@@ -12,6 +12,7 @@ use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
 use super::report::{FaceReport, Report};
+use super::words::counted;
 
 /// Meshes planar faces with quads alone.
 pub(crate) fn run(args: &QuadArgs, quiet: bool) -> Result<(), Failure> {
@@ -47,12 +48,13 @@ fn in_words(path: &Path, report: &Report) -> String {
     let mut lines = vec![format!("{}: {}", path.display(), report.mesh.counts.in_words())];
     if let Some(face) = &report.face {
         if !face.off_curve.is_empty() {
-            lines.push(format!("  {} nodes are off their curves: lower --edge-length", face.off_curve.len()));
+            let nodes = counted(face.off_curve.len(), "node is off its curve", "nodes are off their curves");
+            lines.push(format!("  {nodes}: lower --edge-length"));
         }
         if !face.dropped_polylines.is_empty() {
             lines.push(format!(
-                "  {} polylines lie along the outline or another one, or outside",
-                face.dropped_polylines.len()
+                "  {} along the outline or another one, or outside",
+                counted(face.dropped_polylines.len(), "polyline lies", "polylines lie")
             ));
         }
     }

@@ -5,13 +5,14 @@ use std::path::Path;
 use hexmill::io::{AnyMesh, Document};
 use hexmill::refine::QuadOptions;
 
-use super::args::RefineArgs;
+use super::args::{Making, RefineArgs};
 use super::failure::Failure;
 use super::files::{format_for_hexes, format_to_write, load};
 use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
 use super::progress::Progress;
 use super::report::{DroppedFeatures, HexRefinementReport, OptionsReport, Report};
+use super::words::counted;
 use super::{refine_hexes, refine_surface};
 
 /// What a refinement made, and of what.
@@ -31,12 +32,14 @@ pub(super) struct Refined {
 
 /// Reads, refines, writes and reports.
 pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
-    let format = format_to_write(&args.making.output)?;
+    let output = args.output.clone().expect("an output is required but for a plan");
+    let making = Making { output, working: args.working.clone() };
+    let format = format_to_write(&making.output)?;
     // More than surfaces may have, whose limit is the higher one, is told before the file is read.
     deepest(args, QuadOptions::default().max_levels)?;
     let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
     let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
-    args.making.prepare(&inputs)?;
+    making.prepare(&inputs)?;
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
@@ -44,7 +47,7 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     let document = loaded.take_document();
     let refined = match document.mesh {
         AnyMesh::Hexes(_) => {
-            format_for_hexes(&args.making.output)?;
+            format_for_hexes(&making.output)?;
             refine_hexes::refine(args, document, quiet, &progress)
         }
         _ => refine_surface::refine(args, document, &progress),
@@ -52,10 +55,10 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     let Refined { before, document, capped, options, work, dropped, idle_regions } = refined?;
 
     let made = Made { command: "refine", input: (&loaded, before), document: &document, capped };
-    let report = args.making.write(&made, format, &progress)?;
+    let report = making.write(&made, format, &progress)?;
     let (options, dropped_features) = (Some(options), dropped);
     let report = Report { options, refinement: work, dropped_features, idle_regions, ..report };
-    args.making.close(report, &progress, quiet, in_words)
+    making.close(report, &progress, quiet, in_words)
 }
 
 /// The deepest level: as given, or `default`. Refuses more levels than that.
@@ -78,15 +81,18 @@ fn in_words(path: &Path, report: &Report) -> String {
         vec![format!("{}: {}", path.display(), mesh.counts.in_words()), format!("  {}", levels.join(", "))];
     if mesh.capped > 0 {
         lines.push(format!(
-            "  {} elements are larger than asked for: raise --max-levels, now {}",
-            mesh.capped,
+            "  {} larger than asked for: raise --max-levels, now {}",
+            counted(mesh.capped, "element is", "elements are"),
             report.options.as_ref().map_or(0, |o| o.max_levels)
         ));
     }
     lines.extend(report.refinement.iter().flat_map(|work| work.in_words(mesh.counts.hexes)));
     if let Some(DroppedFeatures { polylines, creases, corners }) = report.dropped_features {
         lines.push(format!(
-            "  {polylines} polylines, {creases} creases and {corners} corners of the input do not go over to the mesh"
+            "  {}, {} and {} of the input do not go over to the mesh",
+            counted(polylines, "polyline", "polylines"),
+            counted(creases, "crease", "creases"),
+            counted(corners, "corner", "corners")
         ));
     }
     let idle = |region| format!("  region {region} meets nothing of the input and refines nothing");

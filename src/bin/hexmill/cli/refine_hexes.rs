@@ -1,16 +1,19 @@
 //! `hexmill refine` of a hex mesh.
 
 use hexmill::io::{AnyMesh, Document};
+use hexmill::mesh::HexMesh;
 use hexmill::refine::hex::{Added, Growth, HexForecast, HexOptions, HexPlan, HexRefineError};
 
 use super::args::RefineArgs;
 use super::failure::Failure;
 use super::memory::{ADVICE, Limit};
 use super::mesh_report::Counts;
+use super::plan::{HexesPlan, Plan, Planned};
 use super::progress::Progress;
 use super::refine::{Refined, deepest};
 use super::report::{HexRefinementReport, OptionsReport};
 use super::tell::tell;
+use super::words::counted;
 
 /// Peak memory of the command in bytes a hex, about, beside [`BYTES`]: with a record, on two threads, meshes of 0.08 to 4.3
 /// million hexes took 170 to 330.
@@ -26,12 +29,9 @@ pub(super) fn refine(
     quiet: bool,
     progress: &Progress,
 ) -> Result<Refined, Failure> {
-    let Document { mesh: AnyMesh::Hexes(mut mesh), tags, .. } = document else { unreachable!("hexes") };
-    mesh.tags = tags;
-    let mut options = options(args)?;
+    let (mesh, mut options) = (mesh_of(document), options(args)?);
     let told = options_report(args, &options);
-    let limit = Limit::new(options.max_hexes, HexOptions::MOST_HEXES, BYTES_PER_HEX);
-    options.max_hexes = limit.cells;
+    let limit = limited(&mut options);
     let before = Counts::of_hexes(&mesh);
     let refused = |error: HexRefineError| refused(args, &limit, &error);
     let plan = HexPlan::new(&mesh, &options, progress).map_err(refused)?;
@@ -39,8 +39,7 @@ pub(super) fn refine(
     if !quiet {
         tell(&plan_in_words(&plan));
     }
-    let forecast = HexForecast { bytes: bytes(plan.forecast()), ..plan.forecast().clone() };
-    let idle_regions = plan.idle_regions().iter().map(|&k| args.regions[k as usize].text.clone()).collect();
+    let (forecast, idle_regions) = (forecast(&plan), idle_regions(args, &plan));
     let refined = plan.carry_out(progress).map_err(refused)?;
     let work = HexRefinementReport {
         forecast,
@@ -57,6 +56,50 @@ pub(super) fn refine(
         dropped: None,
         idle_regions,
     })
+}
+
+/// Tells what would be made of the hexes of `document`.
+pub(super) fn plan(args: &RefineArgs, document: Document, progress: &Progress) -> Result<Planned, Failure> {
+    let (mesh, mut options) = (mesh_of(document), options(args)?);
+    let told = options_report(args, &options);
+    let limit = limited(&mut options);
+    let plan = HexPlan::new(&mesh, &options, progress).map_err(|error| refused(args, &limit, &error))?;
+    let of_hexes = HexesPlan {
+        forecast: forecast(&plan),
+        added: plan.added(),
+        capped: plan.capped(),
+        coincident_nodes: plan.coincident_nodes(),
+    };
+    Ok(Planned {
+        before: Counts::of_hexes(&mesh),
+        options: told,
+        idle_regions: idle_regions(args, &plan),
+        in_words: plan_in_words(&plan),
+        plan: Plan::Hexes(of_hexes),
+    })
+}
+
+/// The hexes of a document.
+fn mesh_of(document: Document) -> HexMesh {
+    let Document { mesh: AnyMesh::Hexes(mesh), tags, .. } = document else { unreachable!("hexes") };
+    HexMesh { tags, ..mesh }
+}
+
+/// Lowers the limit of hexes to what free memory holds.
+fn limited(options: &mut HexOptions) -> Limit {
+    let limit = Limit::new(options.max_hexes, HexOptions::MOST_HEXES, BYTES_PER_HEX);
+    options.max_hexes = limit.cells;
+    limit
+}
+
+/// What will be made, with the memory of the whole command.
+fn forecast(plan: &HexPlan) -> HexForecast {
+    HexForecast { bytes: bytes(plan.forecast()), ..plan.forecast().clone() }
+}
+
+/// The regions that overlap no hex, as they were given.
+fn idle_regions(args: &RefineArgs, plan: &HexPlan) -> Vec<String> {
+    plan.idle_regions().iter().map(|&k| args.regions[k as usize].text.clone()).collect()
 }
 
 /// The options; those for surfaces alone are refused.
@@ -120,18 +163,21 @@ fn plan_in_words(plan: &HexPlan) -> String {
         (conflicts, "where the interface touches itself"),
     ];
     let mut lines = vec![format!(
-        "{} hexes to be made, with {} transition hexes, in about {:.0} MB",
-        forecast.hexes,
-        forecast.transition,
+        "{} to be made, with {}, in about {:.0} MB",
+        counted(forecast.hexes, "hex", "hexes"),
+        counted(forecast.transition, "transition hex", "transition hexes"),
         (bytes(forecast) as f64 / 1e6).ceil()
     )];
     let told = reasons.iter().filter(|(count, _)| *count > 0);
-    lines.extend(told.map(|(count, why)| format!("  {count} elements are refined {why}")));
+    lines.extend(
+        told.map(|(count, why)| format!("  {} refined {why}", counted(*count, "element is", "elements are"))),
+    );
     let coincident = plan.coincident_nodes();
     if coincident > 0 {
         lines.push(format!(
-            "warning: {coincident} nodes stand exactly where others do; hexes that do not share them are no neighbours: weld \
-             them if they are to be"
+            "warning: {} exactly where others do; hexes that do not share them are no neighbours: weld them if they are \
+             to be",
+            counted(coincident, "node stands", "nodes stand")
         ));
     }
     lines.join("\n") + "\n"

@@ -1,15 +1,17 @@
 //! `hexmill refine` of a surface.
 
 use hexmill::io::Document;
-use hexmill::refine::{QuadOptions, RefineError, idle_regions, refine_quads};
+use hexmill::refine::{QuadOptions, RefineError, estimate_quads, idle_regions, refine_quads};
 
 use super::args::RefineArgs;
 use super::failure::Failure;
 use super::memory::{ADVICE, Limit};
 use super::mesh_report::Counts;
+use super::plan::{Plan, Planned, QuadPlan};
 use super::progress::Progress;
 use super::refine::{Refined, deepest};
 use super::report::{DroppedFeatures, OptionsReport};
+use super::words::counted;
 
 /// Peak memory of the command in bytes a quad: encoding takes more than refinement does. Measured with 1.5 million quads
 /// were 176 (VTU) to 308 (MSH), and up to 341 with a report.
@@ -17,13 +19,7 @@ const BYTES_PER_QUAD: u64 = 350;
 
 /// Refines the faces of `document`.
 pub(super) fn refine(args: &RefineArgs, document: Document, progress: &Progress) -> Result<Refined, Failure> {
-    if args.method.is_some() || args.no_growth || args.max_hexes.is_some() {
-        let message = format!(
-            "--method, --no-growth and --max-hexes are for hexes; {} holds a surface",
-            args.input.display()
-        );
-        return Err(Failure::Usage(message));
-    }
+    refuse_options_of_hexes(args)?;
     let surface = document.into_surface().expect("the document holds faces");
     let dropped = DroppedFeatures::of(&surface.features);
     let mut options = options(args)?;
@@ -42,6 +38,46 @@ pub(super) fn refine(args: &RefineArgs, document: Document, progress: &Progress)
         dropped,
         idle_regions: idle.iter().map(|&k| args.regions[k as usize].text.clone()).collect(),
     })
+}
+
+/// Tells what would be made of the faces of `document`.
+pub(super) fn plan(args: &RefineArgs, document: Document, progress: &Progress) -> Result<Planned, Failure> {
+    refuse_options_of_hexes(args)?;
+    let surface = document.into_surface().expect("the document holds faces");
+    let options = options(args)?;
+    let limit = Limit::new(options.max_quads, QuadOptions::MOST_QUADS, BYTES_PER_QUAD);
+    let estimate =
+        estimate_quads(&surface, &options, progress).map_err(|error| refused(args, &limit, &error))?;
+    let plan = QuadPlan::new(&estimate, BYTES_PER_QUAD);
+    let mut in_words = format!(
+        "{}{} and {}, {} deep, in about {:.0} MB\n",
+        if plan.exact { "" } else { "about " },
+        counted(plan.quads, "quad", "quads"),
+        counted(plan.nodes, "node", "nodes"),
+        counted(plan.levels, "level", "levels"),
+        (plan.bytes as f64 / 1e6).ceil()
+    );
+    if plan.quads > limit.cells {
+        in_words += &format!("  more than the limit of {}, which would be refused\n", limit.cells);
+    }
+    let idle = estimate.idle_regions.iter().map(|&k| args.regions[k as usize].text.clone());
+    Ok(Planned {
+        before: Counts::of_polygons(&surface),
+        options: options_report(args, &options),
+        idle_regions: idle.collect(),
+        in_words,
+        plan: Plan::Quads(plan),
+    })
+}
+
+fn refuse_options_of_hexes(args: &RefineArgs) -> Result<(), Failure> {
+    if !(args.method.is_some() || args.no_growth || args.max_hexes.is_some()) {
+        return Ok(());
+    }
+    let file = args.input.display();
+    Err(Failure::Usage(format!(
+        "--method, --no-growth and --max-hexes are for hexes; {file} holds a surface"
+    )))
 }
 
 /// The surface was not refined, or the options make no sense.

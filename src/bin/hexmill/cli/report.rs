@@ -13,6 +13,7 @@ use super::failure::Failure;
 use super::files::{Loaded, save};
 use super::mesh_report::{Counts, MeshReport};
 use super::progress::StageSeconds;
+use super::words::counted;
 
 /// The version of the record's form. Fields may be added within a version, but not changed or removed.
 const SCHEMA: &str = "hexmill-report/1";
@@ -149,16 +150,32 @@ impl HexRefinementReport {
         let Self { forecast, added, turned, levels } = self;
         let transition = levels.last().map_or(0, |stage| stage.transition);
         let told = [
-            (*turned > 0, format!("{turned} hexes of the input were numbered inside out, and were turned")),
+            (
+                *turned > 0,
+                format!(
+                    "{} of the input {} numbered inside out, and turned",
+                    counted(*turned, "hex", "hexes"),
+                    if *turned == 1 { "was" } else { "were" }
+                ),
+            ),
             (
                 added.repairs > 0,
                 format!(
-                    "{} elements are refined where transition hexes could not be untangled",
-                    added.repairs
+                    "{} refined where transition hexes could not be untangled",
+                    counted(added.repairs, "element is", "elements are")
                 ),
             ),
-            (hexes != forecast.hexes, format!("{hexes} hexes, not {} as was told before", forecast.hexes)),
-            (transition > 0, format!("{transition} hexes are transitions of the last level")),
+            (
+                hexes != forecast.hexes,
+                format!("{}, not {} as was told before", counted(hexes, "hex", "hexes"), forecast.hexes),
+            ),
+            (
+                transition > 0,
+                format!(
+                    "{} of the last level",
+                    counted(transition, "hex is a transition", "hexes are transitions")
+                ),
+            ),
         ];
         told.into_iter().filter(|(is_so, _)| *is_so).map(|(_, line)| format!("  {line}")).collect()
     }

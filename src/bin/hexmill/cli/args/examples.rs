@@ -25,6 +25,9 @@ Examples:
   Hexes around a hull (see hexmill grid), three levels deep at its surface:
     hexmill refine sea.vtu -o fine.vtu --method two --region surface:hull.obj,0:level=3
 
+  How many hexes that would be, and what the method adds, without making them:
+    hexmill refine sea.vtu --plan --method two --region surface:hull.obj,0:level=3
+
   Follow curvature, ten degrees an edge, and keep a record:
     hexmill refine part.obj -o part.vtu --curvature 10 --report part.json
 

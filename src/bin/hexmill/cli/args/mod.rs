@@ -57,12 +57,19 @@ pub(crate) enum Command {
 }
 
 /// What every command that makes a mesh takes.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct Making {
     /// Where to write the mesh
     #[arg(long, short, value_name = "OUT")]
     pub(crate) output: PathBuf,
 
+    #[command(flatten)]
+    pub(crate) working: Working,
+}
+
+/// How such a command works, and what it records.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct Working {
     /// Threads to use [default: one a core]; the result does not depend on it
     #[arg(long, short = 'j', value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
@@ -123,8 +130,16 @@ pub(crate) struct RefineArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexOptions::MOST_HEXES))]
     pub(crate) max_hexes: Option<u64>,
 
+    /// Where to write the mesh
+    #[arg(long, short, value_name = "OUT", required_unless_present = "plan")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Tell how much would be made, and what is refined beside what is asked for, and make nothing
+    #[arg(long, conflicts_with = "output")]
+    pub(crate) plan: bool,
+
     #[command(flatten)]
-    pub(crate) making: Making,
+    pub(crate) working: Working,
 }
 
 /// `hexmill hex`.
