@@ -35,6 +35,54 @@ describe.each([{ isolated: true }, { isolated: false }])('isolated: $isolated', 
     expect(await cap()).toBeLessThan(CAP.whole);
   });
 
+  test('dropped hexes are refined near a surface of another file, and near its points', async () => {
+    const { page } = bench;
+    const plain = await bench.figure('hexes');
+    // A square across the middle of the mesh.
+    const square = await page.evaluate(() => {
+      const { min, max } = window.hexmill.workbench.bounds.value ?? { min: [0, 0, 0], max: [0, 0, 0] };
+      const corners = [[min[0], min[1]], [max[0], min[1]], [max[0], max[1]], [min[0], max[1]]];
+      return corners.map(([x, y]) => `v ${x} ${y} ${(min[2] + max[2]) / 2}`).join('\n');
+    });
+    const region = page.locator('[data-region="0"]');
+    await page.locator('[data-section=regions] input[type=file]').setInputFiles({
+      name: 'square.obj',
+      mimeType: 'model/obj',
+      buffer: Buffer.from(`${square}\nf 1 2 3 4\n`),
+    });
+    await region.getByText('square.obj').waitFor();
+    await bench.fill('There, refine the input this many times', '1');
+    const told = await bench.estimate();
+    await bench.mesh();
+    const near = await bench.figure('hexes');
+    expect(near).toBe(told);
+    expect(near).toBeGreaterThan(plain);
+    expect(await page.locator('[data-valid]').getAttribute('data-valid')).toBe('true');
+    // The corners of the square lie at the sides of the mesh, with little of it around them.
+    await bench.choice('Refine near', 'Its points').check();
+    await bench.fill('There, refine the input this many times', '2');
+    expect(await bench.estimate()).not.toBe(near);
+    await bench.fill('Up to this distance, 0: what it passes, model units', '1000');
+    expect(await bench.estimate()).toBeGreaterThan(near);
+    await region.getByRole('button', { name: 'Delete square.obj' }).click();
+    await bench.mesh();
+    expect(await bench.figure('hexes')).toBe(plain);
+  });
+
+  test('a file that is dropped on the regions is refined at, and one that holds hexes is refused there', async () => {
+    const { page } = bench;
+    const picker = page.locator('[data-section=regions] input[type=file]');
+    await picker.setInputFiles({ name: 'again.vtk', mimeType: 'model/vtk', buffer: SOLID });
+    await page.locator('[data-section=regions] .complaint').waitFor();
+    expect(await page.locator('.file-name').innerText()).toContain('solid.vtk');
+    const far = ['v 1e6 0 0', 'v 1000001 0 0', 'v 1e6 1 0', 'f 1 2 3', ''].join('\n');
+    await bench.drop('far.obj', far, '[data-section=regions]');
+    await page.locator('[data-region="0"]').getByText('meets nothing').waitFor();
+    expect(await page.locator('.file-name').innerText()).toContain('solid.vtk');
+    await page.getByRole('button', { name: 'Delete far.obj' }).click();
+    expect(await page.locator('[data-section=regions] .complaint').count()).toBe(0);
+  });
+
   test('a box of hexes around a surface is refined in a region by Method II', async () => {
     const { page } = bench;
     await page.evaluate(() => window.hexmill.openExample('spot'));

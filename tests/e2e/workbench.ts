@@ -79,8 +79,8 @@ export class Workbench {
     await this.#server.close();
   }
 
-  /** Drops a file on the page. */
-  async drop(name: string, content: string | Uint8Array): Promise<void> {
+  /** Drops a file on the page, or on a part of it. */
+  async drop(name: string, content: string | Uint8Array, place = '#app'): Promise<void> {
     const bytes = Array.from(typeof content === 'string' ? new TextEncoder().encode(content) : content);
     const dropped = await this.page.evaluateHandle(
       ([fileName, data]) => {
@@ -91,7 +91,7 @@ export class Workbench {
       [name, bytes] as const,
     );
     for (const type of ['dragenter', 'dragover', 'drop']) {
-      await this.page.dispatchEvent('#app', type, { dataTransfer: dropped });
+      await this.page.dispatchEvent(place, type, { dataTransfer: dropped });
     }
   }
 

@@ -3,6 +3,7 @@
 import { HexedSolid, HexMesh, QuadMesh } from 'hexmill';
 import type { AddedHexes, CallOptions, HexFormat, Mesher, OutputFormat, RefinedHexes, Region, SolidPlan, Surface } from 'hexmill';
 import type { Example } from './examples.js';
+import { trianglesOf } from './guide.js';
 import { toHexOptions, toOptions, toSolidOptions } from './settings.js';
 import type { Job, Settings } from './settings.js';
 import { counted } from './text.js';
@@ -152,24 +153,8 @@ function surfaceOf({ surface }: Input): Surface {
   return surface;
 }
 
-const triangulated = new WeakMap<Surface, Pick<Extract<Region, { kind: 'surface' }>, 'positions' | 'triangles'>>();
-
 /** The region of all that the input's surface passes, if it is to be refined. */
 function atSurface({ surface }: Input, { hexes: { atSurface: level } }: Settings): Region[] {
   if (!surface || level === 0) return [];
-  const known = triangulated.get(surface) ?? triangulate(surface);
-  triangulated.set(surface, known);
-  return [{ kind: 'surface', ...known, distance: 0, level }];
-}
-
-/** The faces as fans of triangles: where a surface passes hardly depends on how its faces are cut. */
-function triangulate({ nodes, offsets, corners }: Surface): { positions: [number, number, number][]; triangles: [number, number, number][] } {
-  const positions: [number, number, number][] = [];
-  for (let i = 0; i < nodes.length; i += 3) positions.push([nodes[i] ?? 0, nodes[i + 1] ?? 0, nodes[i + 2] ?? 0]);
-  const triangles: [number, number, number][] = [];
-  for (let face = 0; face + 1 < offsets.length; face += 1) {
-    const [first = 0, end = 0] = offsets.subarray(face, face + 2);
-    for (let k = first + 1; k + 1 < end; k += 1) triangles.push([corners[first] ?? 0, corners[k] ?? 0, corners[k + 1] ?? 0]);
-  }
-  return { positions, triangles };
+  return [{ kind: 'surface', ...trianglesOf(surface), distance: 0, level }];
 }

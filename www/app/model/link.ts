@@ -64,6 +64,11 @@ function regionOptions({ regions }: Settings): Entry[] {
   return regions.map((r): Entry => ['region', formatRegion(r)]);
 }
 
+/** Surfaces in files, beside the input. */
+function guideOptions({ guides }: Settings): Entry[] {
+  return guides.map(({ name, at, distance, target }) => ['region', quoted(`${at}:${name},${editable(distance)}:${formatTarget(target)}`)]);
+}
+
 /** Each option of refinement of hexes that differs from the defaults. */
 function hexOptions(settings: Settings): Entry[] {
   const { hexes, gradation } = settings;
@@ -113,7 +118,7 @@ export function formatCommand(input: { name: string; holdsHexes: boolean }, outp
   const command = (verb: string, from: string, to: string, list: Entry[]): string =>
     [`hexmill ${verb}`, quoted(from), '-o', quoted(to), ...list.map(([name, value]) => (value ? `--${name} ${value}` : `--${name}`))].join(' ');
   const { name, holdsHexes } = input;
-  if (holdsHexes) return command('refine', name, output, hexOptions(settings));
+  if (holdsHexes) return command('refine', name, output, [...hexOptions(settings), ...guideOptions(settings)]);
   if (settings.job === 'quads') return command('refine', name, output, quadOptions(settings));
   if (settings.job === 'solid') return command('hex', name, output, solidOptions(settings));
   const { hexes } = settings;
@@ -206,8 +211,11 @@ function present(given: Readonly<Record<string, unknown>>): object {
 
 /** `sphere:0,0,0,1:h=0.1`, as the command line takes it. */
 export function formatRegion({ shape, target }: Region): string {
-  const goal = target.by === 'size' ? `h=${editable(target.size)}` : `level=${target.level}`;
-  return `${shape.kind}:${numbers(shape).map((x) => editable(x)).join(',')}:${goal}`;
+  return `${shape.kind}:${numbers(shape).map((x) => editable(x)).join(',')}:${formatTarget(target)}`;
+}
+
+function formatTarget(target: Target): string {
+  return target.by === 'size' ? `h=${editable(target.size)}` : `level=${target.level}`;
 }
 
 function numbers(shape: Shape): number[] {

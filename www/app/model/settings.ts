@@ -3,6 +3,8 @@
 import { MOST_HEXES, MOST_HEXES_OF_SOLIDS, MOST_QUADS } from 'hexmill';
 import type { Background, HexOptions, Method, QuadOptions, Region as RegionOption, SolidOptions } from 'hexmill';
 import type { ViewRegion } from '../view.js';
+import { regionOf } from './guide.js';
+import type { Guide } from './guide.js';
 
 export type Vec3 = [number, number, number];
 export type Shape = ViewRegion;
@@ -68,6 +70,8 @@ export interface Settings {
   readonly maxLevels: number;
   readonly maxQuads: number;
   readonly regions: readonly Region[];
+  /** Surfaces that hexes of a file are refined at, after the regions in the mesher's order. In no link: they are files. */
+  readonly guides: readonly Guide[];
 }
 
 export const LIMITS = {
@@ -113,14 +117,19 @@ export const DEFAULTS: Settings = {
   maxLevels: 12,
   maxQuads: MOST_QUADS,
   regions: [],
+  guides: [],
 };
 
 let lastId = 0;
 
-/** A region with an id that no other region of this page has. */
-export function region(shape: Shape, target: Target): Region {
+/** An id that nothing else of this page has. */
+export function newId(): number {
   lastId += 1;
-  return { id: lastId, shape, target };
+  return lastId;
+}
+
+export function region(shape: Shape, target: Target): Region {
+  return { id: newId(), shape, target };
 }
 
 /** The mesher's options for `settings`. */
@@ -137,11 +146,11 @@ export function toOptions(settings: Settings): QuadOptions {
 }
 
 /** The options of hexes for `settings`, with what else there is to refine at. */
-export function toHexOptions({ hexes, regions, gradation }: Settings, more: readonly RegionOption[] = []): HexOptions {
+export function toHexOptions({ hexes, regions, guides, gradation }: Settings, more: readonly RegionOption[] = []): HexOptions {
   return {
     ...(hexes.by === 'length' ? { edgeLength: hexes.edgeLength } : { levels: hexes.levels }),
     method: hexes.method,
-    regions: [...regions.map(toRegionOption), ...more],
+    regions: [...regions.map(toRegionOption), ...guides.map(regionOf), ...more],
     gradation,
     maxLevels: hexes.maxLevels,
     maxHexes: hexes.maxHexes,

@@ -15,10 +15,12 @@ import { debounced, Latest } from './latest.js';
 import { DEFAULT_FINENESS, fitting } from './fitting.js';
 import { countedCells, exported, inputOf, jobOf, Maker } from './job.js';
 import type { Forecast, Input, Made } from './job.js';
+import { USUAL } from './guide.js';
+import type { Guide } from './guide.js';
 import { formatLink } from './link.js';
 import type { Entry, GivenSettings } from './link.js';
 import { Log } from './log.js';
-import { DEFAULTS, region } from './settings.js';
+import { DEFAULTS, newId, region } from './settings.js';
 import type { HexSettings, Job, Region, Settings, Shape, ShapeKind, SolidSettings, Vec3 } from './settings.js';
 import { center, diagonal, extent, fault, newShape, tidy, translated } from './shape.js';
 import type { Bounds } from './shape.js';
@@ -48,7 +50,7 @@ export class Workbench {
   readonly log = new Log();
   readonly input = signal<Input | null>(null);
   readonly settings = signal<Settings>(DEFAULTS);
-  /** Id of the region that has handles. */
+  /** Id of the region that has handles, or of the guide, whose numbers are shown. */
   readonly selected = signal<number | null>(null);
   readonly estimate = signal<Forecast | null>(null);
   readonly #estimated = signal<Settings | null>(null);
@@ -62,6 +64,7 @@ export class Workbench {
   readonly trouble = {
     engine: signal<Complaint | null>(null),
     input: signal<Complaint | null>(null),
+    guide: signal<Complaint | null>(null),
     estimate: signal<Complaint | null>(null),
     mesh: signal<Complaint | null>(null),
     output: signal<Complaint | null>(null),
@@ -175,6 +178,7 @@ export class Workbench {
     this.selected.value = null;
     this.pickedPoint.value = null;
     this.cancelled.value = null;
+    this.trouble.guide.value = null;
     this.trouble.mesh.value = null;
     this.trouble.output.value = null;
     this.#history.clear();
@@ -216,7 +220,8 @@ export class Workbench {
   #syncHistory(): void {
     this.canUndo.value = this.#history.canUndo;
     this.canRedo.value = this.#history.canRedo;
-    if (!this.settings.value.regions.some(({ id }) => id === this.selected.value)) this.selected.value = null;
+    const { regions, guides } = this.settings.value;
+    if (![...regions, ...guides].some(({ id }) => id === this.selected.value)) this.selected.value = null;
   }
 
   // ---- regions
@@ -267,6 +272,51 @@ export class Workbench {
     if (!dragged) return;
     this.editRegion(dragged.id, { shape: phase === 'end' ? tidy(shape) : shape });
     if (phase === 'end') this.#history.seal();
+  }
+
+  /** Deletes the region or the guide that is selected. */
+  deleteSelected(): void {
+    const id = this.selected.value;
+    if (id === null) return;
+    if (this.settings.value.guides.some((guide) => guide.id === id)) this.deleteGuide(id);
+    else this.deleteRegion(id);
+  }
+
+  // ---- surfaces that hexes of a file are refined at
+
+  /** Whether hexes can be refined at surfaces of other files. */
+  readonly takesGuides = computed(() => this.input.value?.hexes != null);
+
+  /** Reads a surface that the hexes are to be refined at, and selects it. */
+  async addGuide(name: string, content: () => Promise<ArrayBuffer>): Promise<void> {
+    this.trouble.guide.value = null;
+    const input = this.input.value;
+    try {
+      const surface = await this.#busy('reading', async (signal) => {
+        const mesher = await this.mesher;
+        return await mesher.load(await content(), { name, signal });
+      });
+      if (surface === null || input !== this.input.value) return;
+      const added: Guide = { id: newId(), name, surface, ...USUAL };
+      batch(() => {
+        this.edit({ guides: [...this.settings.value.guides, added] }, `add ${added.id}`);
+        this.selected.value = added.id;
+      });
+      this.log.add('info', `Read ${name}: ${counted(surface.info.faces, 'face')} to refine at.`);
+    } catch (error) {
+      const problem = complaint(error);
+      this.trouble.guide.value = { ...problem, about: name };
+      this.log.add('error', `${name}: ${problem.text}`);
+    }
+  }
+
+  editGuide(id: number, change: Partial<Pick<Guide, 'at' | 'distance' | 'target'>>): void {
+    const guides = this.settings.value.guides.map((guide) => (guide.id === id ? { ...guide, ...change } : guide));
+    this.edit({ guides }, `guide ${id} ${Object.keys(change).join()}`);
+  }
+
+  deleteGuide(id: number): void {
+    this.edit({ guides: this.settings.value.guides.filter((guide) => guide.id !== id) }, `delete ${id}`);
   }
 
   // ---- estimate and mesh

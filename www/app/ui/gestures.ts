@@ -31,7 +31,9 @@ function listenToDrops(page: Page): void {
     if (!holdsFiles(event)) return;
     event.preventDefault();
     const [file] = event.dataTransfer?.files ?? [];
-    if (file) page.openFile(file);
+    const isOnRegions = event.target instanceof Element && event.target.closest('[data-section=regions]') !== null;
+    if (file && isOnRegions && page.workbench.takesGuides.value) page.openGuide(file);
+    else if (file) page.openFile(file);
   });
 }
 
@@ -48,7 +50,7 @@ function key(page: Page, event: KeyboardEvent): void {
   else if (withCommand && letter === 'z') event.shiftKey ? workbench.redo() : workbench.undo();
   else if (withCommand && letter === 'y') workbench.redo();
   else if (!withCommand && !event.altKey && letter === 'f') viewport.frameAll();
-  else if (event.key === 'Delete' && workbench.selected.value !== null) workbench.deleteRegion(workbench.selected.value);
+  else if (event.key === 'Delete' && workbench.selected.value !== null) workbench.deleteSelected();
   else return;
   event.preventDefault();
 }
@@ -73,9 +75,9 @@ function followSelection(page: Page): void {
 
 /** What went wrong comes into sight, wherever its column is scrolled to. */
 function followTrouble(page: Page): void {
-  const { input, estimate, mesh, output } = page.workbench.trouble;
+  const { input, guide, estimate, mesh, output } = page.workbench.trouble;
   effect(() => {
-    if (![input, estimate, mesh, output].some((trouble) => trouble.value)) return;
+    if (![input, guide, estimate, mesh, output].some((trouble) => trouble.value)) return;
     requestAnimationFrame(() => document.querySelector('.steps .complaint')?.scrollIntoView({ block: 'nearest' }));
   });
 }

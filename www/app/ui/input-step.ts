@@ -18,7 +18,7 @@ export function inputStep(page: Page): TemplateResult {
     ${input?.surface ? job(page) : nothing}
     ${complaintNote(page.workbench.trouble.input.value)}
     <div class="row">
-      ${filePicker(page, input ? 'Open another…' : 'Choose a file…')}
+      ${filePicker(input ? 'Open another…' : 'Choose a file…', (file) => page.openFile(file))}
       ${select(
         'Example',
         [{ value: '', label: 'Example' }, ...EXAMPLES.map(({ id, label }) => ({ value: id, label }))],
@@ -43,11 +43,11 @@ function job({ workbench }: Page): TemplateResult {
 }
 
 /** The button that opens the file dialog. */
-export function filePicker(page: Page, label: string): TemplateResult {
+export function filePicker(label: string, open: (file: File) => void): TemplateResult {
   const chosen = (event: Event): void => {
     const picker = event.target as HTMLInputElement;
     const [file] = picker.files ?? [];
-    if (file) page.openFile(file);
+    if (file) open(file);
     picker.value = '';
   };
   return html`<label class="button">

@@ -84,6 +84,11 @@ export class Page {
     void this.workbench.load(file.name, () => file.arrayBuffer());
   }
 
+  /** Reads a surface to refine hexes at. */
+  openGuide(file: File): void {
+    void this.workbench.addGuide(file.name, () => file.arrayBuffer());
+  }
+
   openExample(id: string, linked: Partial<Linked> = {}): void {
     const example = exampleById(id);
     const url = example && EXAMPLE_URLS[example.file];

@@ -3,9 +3,11 @@
 import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
 import { repeat } from 'lit-html/directives/repeat.js';
-import { iconButton, numberField, segmented } from './controls.js';
+import { complaintNote, iconButton, numberField, segmented } from './controls.js';
 import { icon } from './icons.js';
+import { filePicker } from './input-step.js';
 import type { Page } from './page.js';
+import type { Guide } from '../model/guide.js';
 import { LIMITS } from '../model/settings.js';
 import type { Region, Shape, Target, Vec3 } from '../model/settings.js';
 import { fault, SHAPES } from '../model/shape.js';
@@ -13,7 +15,7 @@ import { counted, rounded, significant } from '../model/text.js';
 
 export function regionsStep(page: Page): TemplateResult {
   const { workbench } = page;
-  const { regions } = workbench.settings.value;
+  const { regions, guides } = workbench.settings.value;
   return html`
     <div class="adders" role="group" aria-label="Add a region">
       ${SHAPES.map(
@@ -21,22 +23,23 @@ export function regionsStep(page: Page): TemplateResult {
           @click=${() => workbench.addRegion(kind)}>${icon(kind)}<span>${label}</span></button>`,
       )}
     </div>
-    ${regions.length === 0
+    ${workbench.takesGuides.value ? filePicker('Near a surface…', (file) => page.openGuide(file)) : nothing}
+    ${complaintNote(workbench.trouble.guide.value)}
+    ${regions.length + guides.length === 0
       ? html`<p class="hint">Add a region and drag its handles in the view. It lands where you last clicked on the model.</p>`
-      : html`<ol class="regions">${repeat(regions, ({ id }) => id, (region, index) => regionItem(page, region, index))}</ol>`}`;
+      : html`<ol class="regions">
+          ${repeat(regions, ({ id }) => id, (region, index) => regionItem(page, region, index))}
+          ${repeat(guides, ({ id }) => id, (guide, index) => guideItem(page, guide, regions.length + index))}
+        </ol>`}`;
 }
 
 function regionItem(page: Page, region: Region, index: number): TemplateResult {
   const { workbench } = page;
   const isOpen = workbench.selected.value === region.id;
-  const isIdle = workbench.isEstimated.value && (workbench.estimate.value?.idleRegions.includes(index) ?? false);
   const name = `${SHAPES.find(({ kind }) => kind === region.shape.kind)?.label ?? ''} ${index + 1}`;
   return html`<li class=${isOpen ? 'open' : ''} data-region=${index}>
     <div class="region-head">
-      <button class="region-name" type="button" aria-expanded=${isOpen} @click=${() => (workbench.selected.value = isOpen ? null : region.id)}>
-        ${icon(region.shape.kind)}<span>${name}</span>
-        ${isIdle ? html`<small class="idle" title="It overlaps no part of the model, so it refines nothing">meets nothing</small>` : html`<small>${describe(region.target)}</small>`}
-      </button>
+      ${head(page, region, index, html`${icon(region.shape.kind)}<span>${name}</span>`)}
       ${iconButton({ icon: 'copy', label: `Duplicate ${name}`, press: () => workbench.duplicateRegion(region.id) })}
       ${iconButton({ icon: 'bin', label: `Delete ${name}`, press: () => workbench.deleteRegion(region.id) })}
     </div>
@@ -44,26 +47,69 @@ function regionItem(page: Page, region: Region, index: number): TemplateResult {
   </li>`;
 }
 
+function guideItem(page: Page, guide: Guide, index: number): TemplateResult {
+  const { workbench } = page;
+  const isOpen = workbench.selected.value === guide.id;
+  return html`<li class=${isOpen ? 'open' : ''} data-region=${index}>
+    <div class="region-head">
+      ${head(page, guide, index, html`${icon('file')}<span title=${guide.name}>${guide.name}</span>`)}
+      ${iconButton({ icon: 'bin', label: `Delete ${guide.name}`, press: () => workbench.deleteGuide(guide.id) })}
+    </div>
+    ${isOpen ? guideEditor(page, guide) : nothing}
+  </li>`;
+}
+
+/** What opens a region: its name, and what it asks for or that it meets nothing. */
+function head({ workbench }: Page, { id, target }: Pick<Region, 'id' | 'target'>, index: number, name: TemplateResult): TemplateResult {
+  const isOpen = workbench.selected.value === id;
+  const isIdle = workbench.isEstimated.value && (workbench.estimate.value?.idleRegions.includes(index) ?? false);
+  return html`<button class="region-name" type="button" aria-expanded=${isOpen} @click=${() => (workbench.selected.value = isOpen ? null : id)}>
+    ${name}
+    ${isIdle ? html`<small class="idle" title="It overlaps no part of the model, so it refines nothing">meets nothing</small>` : html`<small>${describe(target)}</small>`}
+  </button>`;
+}
+
 function describe(target: Target): string {
   return target.by === 'size' ? `edges ≤ ${significant(target.size, 3)}` : counted(target.level, 'level');
 }
 
-function editor({ workbench }: Page, { id, shape, target }: Region): TemplateResult {
+function editor(page: Page, { id, shape, target }: Region): TemplateResult {
+  const { workbench } = page;
   const reshape = (change: Partial<Shape>): void => workbench.editRegion(id, { shape: { ...shape, ...change } as Shape });
   const problem = fault(shape);
   return html`<div class="region-editor">
     ${shapeFields(shape, reshape)}
     ${problem ? html`<p class="fault" role="alert">${problem}</p>` : nothing}
+    ${targetFields(page, 'Inside', target, (target) => workbench.editRegion(id, { target }))}
+  </div>`;
+}
+
+function guideEditor(page: Page, { id, at, distance, target }: Guide): TemplateResult {
+  const { workbench } = page;
+  return html`<div class="region-editor">
+    ${segmented(
+      'Refine near',
+      [{ value: 'surface', label: 'Surface' }, { value: 'points', label: 'Its points' }],
+      at,
+      (at) => workbench.editGuide(id, { at }),
+    )}
+    ${numberField({ label: 'Up to this distance, 0: what it passes', value: distance, min: 0, unit: 'model units', change: (distance) => workbench.editGuide(id, { distance }) })}
+    ${targetFields(page, 'There', target, (target) => workbench.editGuide(id, { target }))}
+  </div>`;
+}
+
+/** How fine cells are to be somewhere. */
+function targetFields({ workbench }: Page, where: string, target: Target, change: (target: Target) => void): TemplateResult {
+  return html`
     ${segmented(
       'Region sized by',
       [{ value: 'size', label: 'Edge length' }, { value: 'level', label: 'Level' }],
       target.by,
-      (by) => workbench.editRegion(id, { target: by === 'size' ? { by, size: rounded(workbench.usualEdge() / 4) } : { by, level: 3 } }),
+      (by) => change(by === 'size' ? { by, size: rounded(workbench.usualEdge() / 4) } : { by, level: 3 }),
     )}
     ${target.by === 'size'
-      ? numberField({ label: 'Inside, no edge longer than', value: target.size, min: 0, open: true, unit: 'model units', change: (size) => workbench.editRegion(id, { target: { by: 'size', size } }) })
-      : numberField({ label: 'Inside, refine the input this many times', value: target.level, ...(workbench.makesHexes.value ? LIMITS.hexLevels : LIMITS.levels), whole: true, step: 1, change: (level) => workbench.editRegion(id, { target: { by: 'level', level } }) })}
-  </div>`;
+      ? numberField({ label: `${where}, no edge longer than`, value: target.size, min: 0, open: true, unit: 'model units', change: (size) => change({ by: 'size', size }) })
+      : numberField({ label: `${where}, refine the input this many times`, value: target.level, ...(workbench.makesHexes.value ? LIMITS.hexLevels : LIMITS.levels), whole: true, step: 1, change: (level) => change({ by: 'level', level }) })}`;
 }
 
 function shapeFields(shape: Shape, change: (change: Partial<Shape>) => void): TemplateResult {

@@ -10,6 +10,7 @@ import { isHexes, isSolid } from '../model/job.js';
 import type { Cells, Input } from '../model/job.js';
 import type { Vec3 } from '../model/settings.js';
 import { grown } from '../model/shape.js';
+import type { Bounds } from '../model/shape.js';
 import type { Page } from './page.js';
 
 export type Axis = '+x' | '-x' | '+y' | '-y' | '+z' | '-z' | 'iso';
@@ -203,7 +204,18 @@ export class Viewport {
     return () => stops.forEach((stop) => stop());
   }
 
-  /** The box that is to be filled with hexes, around the surface that they are made for; it is seen whole at first. */
+  /** The bounds of the surface whose numbers are shown. */
+  #boundsOfGuide(): Bounds | null {
+    const { settings, selected } = this.#page.workbench;
+    const guide = settings.value.guides.find(({ id }) => id === selected.value);
+    const bounds = guide?.surface.info.bounds;
+    return bounds ? { min: bounds.min as Vec3, max: bounds.max as Vec3 } : null;
+  }
+
+  /**
+   * The box that is to be filled with hexes, around the surface that they are made for; it is seen whole at first. Else the
+   * bounds of the surface that hexes of a file are refined at and whose numbers are shown.
+   */
   #drawBox(view: View): () => void {
     let framed: Input | null = null;
     return effect(() => {
@@ -212,7 +224,7 @@ export class Viewport {
       const input = workbench.input.value;
       const isBox = job === 'hexes' && input?.surface != null;
       const bounds = isBox && workbench.shows.value === 'input' ? workbench.bounds.value : null;
-      view.setBox(bounds && grown(bounds, hexes));
+      view.setBox(bounds ? grown(bounds, hexes) : this.#boundsOfGuide());
       if (bounds && framed !== input) view.frameAll();
       framed = isBox ? input : null;
     });

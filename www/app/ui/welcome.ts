@@ -25,7 +25,7 @@ export function welcome(page: Page): TemplateResult | typeof nothing {
   return html`<div class="welcome">
     <h1><span class="with-mouse">Drop a mesh here</span><span class="with-finger">Open a mesh</span></h1>
     <p>A surface becomes a conforming mesh of quads, of hexes around it, or of hexes that fill the solid in it; hexes are refined and looked into. Everything happens in this page: no file leaves your machine.</p>
-    <div class="row centred">${filePicker(page, 'Choose a file…')}</div>
+    <div class="row centred">${filePicker('Choose a file…', (file) => page.openFile(file))}</div>
     <p class="formats">${READABLE.map(({ extension }) => `.${extension}`).join('   ')}</p>
     <h2>Or start from an example</h2>
     <ul class="examples">
