@@ -1,9 +1,7 @@
 //! Faces of a file that are faces of its hexes.
 
-use std::collections::HashMap;
-
 use crate::mesh::NodeId;
-use crate::mesh::topology::{FaceSides, Side, side_nodes};
+use crate::mesh::topology::{FaceSides, Side};
 
 /// The faces of a file, beside its hexes.
 pub(super) struct Matched {
@@ -21,34 +19,16 @@ pub(super) fn match_faces<'a>(
     node_count: usize,
     faces: impl Iterator<Item = (&'a [NodeId], u32)> + Clone,
 ) -> Matched {
+    let quad = |face: &[NodeId]| <[NodeId; 4]>::try_from(face).ok();
     let quads = faces.clone().filter_map(|(face, _)| quad(face));
-    let known = FaceSides::find(hexes, node_count, quads);
-    let mut chosen: HashMap<Side, Side> = HashMap::new();
-    let mut side_of = |face: [NodeId; 4]| match *known.of(face) {
-        [] => None,
-        [first] => Some(first),
-        [first, second, ..] => Some(*chosen.entry(first).or_insert_with(|| {
-            let looks_so = is_turned_to(face, side_nodes(hexes, second));
-            if looks_so { second } else { first }
-        })),
-    };
+    let mut known = FaceSides::find(hexes, node_count, quads);
     let (mut matched, mut others) = (Vec::new(), Vec::new());
     for (face, cell) in faces {
-        match quad(face).and_then(&mut side_of) {
+        match quad(face).and_then(|face| known.told(hexes, face)) {
             Some(side) => matched.push((side, cell)),
             None => others.push(cell),
         }
     }
     matched.sort_unstable();
     Matched { sides: matched, others }
-}
-
-/// The nodes of a face of four.
-fn quad(face: &[NodeId]) -> Option<[NodeId; 4]> {
-    face.try_into().ok()
-}
-
-/// Do two faces have the same nodes in the same order around, wherever they begin?
-fn is_turned_to(a: [NodeId; 4], b: [NodeId; 4]) -> bool {
-    (0..4).any(|shift| (0..4).all(|k| a[k] == b[(k + shift) % 4]))
 }

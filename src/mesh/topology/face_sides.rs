@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::Side;
+use super::hexes::side_nodes;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES;
 
@@ -14,6 +15,7 @@ pub(crate) struct FaceSides(HashMap<[NodeId; 4], Sides>);
 struct Sides {
     first: [Side; 2],
     count: usize,
+    is_told: bool,
 }
 
 impl FaceSides {
@@ -54,6 +56,22 @@ impl FaceSides {
     pub(crate) fn of(&self, face: [NodeId; 4]) -> &[Side] {
         self.0.get(&ascending(face)).and_then(|found| found.first.get(..found.count)).unwrap_or_default()
     }
+
+    /// The side that a face is; of one between hexes the side from which its nodes go around as they are given where it is
+    /// asked for first.
+    pub(crate) fn told(&mut self, hexes: &[[NodeId; 8]], face: [NodeId; 4]) -> Option<Side> {
+        let found = self.0.get_mut(&ascending(face)).filter(|found| (1..=2).contains(&found.count))?;
+        if found.count == 2 && !found.is_told && is_turned_to(face, side_nodes(hexes, found.first[1])) {
+            found.first.swap(0, 1);
+        }
+        found.is_told = true;
+        Some(found.first[0])
+    }
+}
+
+/// Do two faces have the same nodes in the same order around, wherever they begin?
+fn is_turned_to(a: [NodeId; 4], b: [NodeId; 4]) -> bool {
+    (0..4).any(|shift| (0..4).all(|k| a[k] == b[(k + shift) % 4]))
 }
 
 fn ascending(mut nodes: [NodeId; 4]) -> [NodeId; 4] {

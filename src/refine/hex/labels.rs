@@ -146,49 +146,44 @@ impl Labelled<'_> {
     /// Labels the faces between the coarse and the refined side.
     fn label_walls(&self, material: impl Fn(u32) -> u32, found: &mut Vec<Label>) {
         let rims = Rims::of(self, &material);
-        let is_old = |edge: [NodeId; 2]| edge.iter().all(|n| n.index() < self.node_count);
-        let mut walls: Vec<Wall> = Vec::new();
+        // Each with its nodes, ascending.
+        let mut walls: Vec<([NodeId; 4], Label)> = Vec::new();
         for (hex, k) in self.layer.iter().zip(0..) {
             for face in SIDES {
                 let (coarse, refined) = ends(&hex.hex, face);
                 if rims.are_at(coarse) || rims.are_at(refined) {
-                    // The side that leaves.
-                    let leaves = if is_old(coarse) && !is_old(refined) { refined } else { coarse };
                     let mut nodes = [coarse[0], coarse[1], refined[0], refined[1]];
                     nodes.sort_unstable();
-                    walls.push(Wall { nodes, leaves, side: 6 * k + Side::from(face) });
+                    walls.push((nodes, (6 * k + Side::from(face), NO_LABEL)));
                 }
             }
         }
         walls.sort_unstable();
         let of_side = |side: Side| material(self.layer[side as usize / 6].within);
-        for same in walls.chunk_by(|a, b| a.nodes == b.nodes) {
-            match same {
-                [wall] => found.extend(rims.boundary(wall.leaves).map(|label| (wall.side, label))),
-                [a, b] => {
-                    let materials = [a, b].map(|wall| of_side(wall.side));
-                    for (wall, own, other) in [(a, 0, 1), (b, 1, 0)] {
-                        let label = rims.between(a.leaves, [materials[own], materials[other]]);
-                        found.extend(label.map(|label| (wall.side, label)));
+        for same in walls.chunk_by(|a, b| a.0 == b.0) {
+            let leaves = self.edge_that_leaves(same[0].1.0);
+            match *same {
+                [(_, (side, _))] => found.extend(rims.boundary(leaves).map(|label| (side, label))),
+                [(_, (a, _)), (_, (b, _))] => {
+                    for (side, other) in [(a, b), (b, a)] {
+                        let label = rims.between(leaves, [of_side(side), of_side(other)]);
+                        found.extend(label.map(|label| (side, label)));
                     }
                 }
                 _ => {}
             }
         }
     }
+
+    /// The edge, of a face of a layer hex, of the side that leaves the old nodes.
+    fn edge_that_leaves(&self, side: Side) -> [NodeId; 2] {
+        let is_old = |edge: [NodeId; 2]| edge.iter().all(|n| n.index() < self.node_count);
+        let (coarse, refined) = ends(&self.layer[side as usize / 6].hex, (side % 6) as u8);
+        if is_old(coarse) && !is_old(refined) { refined } else { coarse }
+    }
 }
 
-/// A face of a layer hex between its coarse one, below, and its refined one, above.
-#[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Wall {
-    /// Its nodes, ascending.
-    nodes: [NodeId; 4],
-    /// The edge of the side that leaves the old nodes.
-    leaves: [NodeId; 2],
-    side: Side,
-}
-
-/// The faces of a layer hex that can be such.
+/// The faces of a layer hex between its coarse one, below, and its refined one, above.
 const SIDES: [u8; 4] = [2, 3, 4, 5];
 
 /// The edges of such a face that the coarse hex and the refined one have.

@@ -93,11 +93,10 @@ impl<'a> Sheets<'a> {
             .collect();
         let mut next = materials.len() as u32;
         // Hexes along the same sheets, of what was one material, stay one.
-        let mut known: BTreeMap<(u32, Vec<u32>), u32> = BTreeMap::new();
-        for of_hex in own.chunk_by(|a, b| a.0 == b.0) {
-            let material = &mut materials[of_hex[0].0 as usize];
-            let along: Vec<u32> = of_hex.iter().map(|&(_, along)| along).collect();
-            *material = *known.entry((*material, along)).or_insert_with(|| {
+        let mut known: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+        for (hex, along) in own {
+            let material = &mut materials[hex as usize];
+            *material = *known.entry([*material, along]).or_insert_with(|| {
                 next += 1;
                 next - 1
             });
