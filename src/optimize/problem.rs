@@ -54,17 +54,13 @@ impl Problem {
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let touched = parallel::try_filter(hexes.len(), monitor, |h| hexes[h].iter().any(|&n| moves(n)))?;
-        let mut used = vec![false; positions.len()];
-        for &h in &touched {
-            for n in hexes[h as usize] {
-                used[n.index()] = true;
-            }
-        }
+        let nodes_of = |k: usize| hexes[touched[k] as usize].map(NodeId::index);
+        let used = parallel::flags(positions.len(), touched.len(), nodes_of);
         let of_kind = |wanted: bool| {
-            let (used, moves) = (&used, &moves);
-            (0..positions.len()).map(NodeId::new).filter(move |&n| used[n.index()] && moves(n) == wanted)
+            let is = |n: usize| (used[n] && moves(NodeId::new(n)) == wanted).then(|| NodeId::new(n));
+            parallel::filter_map(positions.len(), is)
         };
-        let mut nodes: Vec<NodeId> = of_kind(true).collect();
+        let mut nodes: Vec<NodeId> = of_kind(true);
         let movable_count = nodes.len();
         nodes.extend(of_kind(false));
         monitor.proceed()?;
@@ -158,12 +154,11 @@ impl Problem {
         nodes: &[u32],
         monitor: &dyn Monitor,
     ) -> Result<Vec<u32>, Cancelled> {
+        monitor.proceed()?;
         let mut is_near = vec![false; self.cells.len()];
-        for batch in batches(nodes.len(), monitor) {
-            for &node in &nodes[batch?] {
-                self.star(node).for_each(|(cell, _)| is_near[cell] = true);
-            }
-        }
+        parallel::raise_some(&mut is_near, nodes.len(), |k, is_near| {
+            self.star(nodes[k]).for_each(|(cell, _)| is_near.raise(cell));
+        });
         parallel::try_filter(self.cells.len(), monitor, |cell| is_near[cell])
     }
 

@@ -50,6 +50,7 @@ pub(crate) fn sweep(
     monitor: &dyn Monitor,
 ) -> Result<Moved, Cancelled> {
     let mut moved = Moved::default();
+    let mut far = Vec::new();
     for colour in 0..problem.colours.len() {
         let nodes: Vec<u32> =
             problem.colours[colour].iter().copied().filter(|&n| awake[n as usize]).collect();
@@ -60,16 +61,18 @@ pub(crate) fn sweep(
             let found: Vec<Option<Step>> = parallel::collect_with(batch.len(), Star::default, |star, k| {
                 relaxed(problem, batch[k], rules, star)
             });
+            far.clear();
             for (&node, step) in batch.iter().zip(found) {
                 awake[node as usize] = false;
                 let Some(step) = step else { continue };
                 problem.points[node as usize] = step.to;
                 moved.nodes.push(node);
                 if step.far {
-                    moved.far += 1;
-                    wake(problem, node, allowed, awake);
+                    far.push(node);
                 }
             }
+            moved.far += far.len();
+            wake(problem, &far, allowed, awake);
         }
     }
     Ok(moved)
@@ -83,15 +86,17 @@ pub(crate) struct Moved {
     pub(crate) far: usize,
 }
 
-/// Wakes the node and those that share a cell with it.
-pub(crate) fn wake(problem: &Problem, node: u32, allowed: &[bool], awake: &mut [bool]) {
-    for (cell, _) in problem.star(node) {
-        for other in problem.cells[cell] {
-            if allowed.get(other as usize) == Some(&true) {
-                awake[other as usize] = true;
+/// Wakes the nodes and those that share a cell with one of them.
+pub(crate) fn wake(problem: &Problem, nodes: &[u32], allowed: &[bool], awake: &mut [bool]) {
+    parallel::raise_some(awake, nodes.len(), |k, awake| {
+        for (cell, _) in problem.star(nodes[k]) {
+            for other in problem.cells[cell] {
+                if allowed.get(other as usize) == Some(&true) {
+                    awake.raise(other as usize);
+                }
             }
         }
-    }
+    });
 }
 
 /// Where a node goes, and whether that is far enough to matter to its neighbours.

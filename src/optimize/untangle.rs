@@ -11,8 +11,7 @@ use super::problem::Problem;
 use super::sweep::{ASLEEP, Rules, sweep};
 use super::{OptimizeOptions, UNTANGLING};
 use crate::mesh::numbering::hex::NEIGHBOURS;
-use crate::monitor::batches;
-use crate::{Cancelled, Monitor, Silent};
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// Rings of cells around those that are not positive whose nodes move, at first.
 const RINGS: usize = 2;
@@ -91,32 +90,16 @@ impl Problem {
         rings: usize,
         monitor: &dyn Monitor,
     ) -> Result<Vec<bool>, Cancelled> {
-        let mut reached = vec![false; self.movable()];
-        let mut front: Vec<u32> = Vec::new();
-        let enter = |cell: usize, reached: &mut Vec<bool>, front: &mut Vec<u32>| {
-            for n in self.cells[cell] {
-                if let Some(r) = reached.get_mut(n as usize)
-                    && !std::mem::replace(r, true)
-                {
-                    front.push(n);
-                }
-            }
-        };
-        for batch in batches(cells.len(), monitor) {
-            for &cell in &cells[batch?] {
-                enter(cell, &mut reached, &mut front);
-            }
-        }
+        monitor.proceed()?;
+        let nodes_of = |cell: usize| self.cells[cell].map(|n| n as usize);
+        let mut reached = parallel::flags(self.nodes.len(), cells.len(), |k| nodes_of(cells[k]));
         for _ in 0..rings {
-            let ring = std::mem::take(&mut front);
-            for batch in batches(ring.len(), monitor) {
-                for &node in &ring[batch?] {
-                    for (cell, _) in self.star(node) {
-                        enter(cell, &mut reached, &mut front);
-                    }
-                }
-            }
+            // Only movable nodes know the cells around them, and lead on.
+            let is_at = |cell: usize| nodes_of(cell).iter().any(|&n| n < self.movable() && reached[n]);
+            let ring = parallel::try_filter(self.cells.len(), monitor, is_at)?;
+            parallel::raise(&mut reached, ring.len(), |k| nodes_of(ring[k] as usize));
         }
+        reached.truncate(self.movable());
         Ok(reached)
     }
 }

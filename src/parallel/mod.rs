@@ -199,9 +199,24 @@ pub fn flags<const N: usize>(
 
 /// Raises the flags at the `N` places that `mark` gives for each number below `marks`.
 pub fn raise<const N: usize>(flags: &mut [bool], marks: usize, mark: impl Fn(usize) -> [usize; N] + Sync) {
-    // All threads set flags to the same value, so that their order does not matter.
-    let flags = slots::shared(flags);
-    for_each(marks, |k| mark(k).into_iter().for_each(|place| flags[place].store(true, Relaxed)));
+    raise_some(flags, marks, |k, flags| mark(k).into_iter().for_each(|place| flags.raise(place)));
+}
+
+/// Calls `mark` for each number below `marks`, which may raise any of the flags.
+pub fn raise_some(flags: &mut [bool], marks: usize, mark: impl Fn(usize, &Flags) + Sync) {
+    let flags = Flags(slots::shared(flags));
+    for_each(marks, |k| mark(k, &flags));
+}
+
+/// Flags that all threads may raise. They set them to the same value, so that their order does not matter.
+pub struct Flags<'a>(&'a [AtomicBool]);
+
+impl Flags<'_> {
+    /// Raises the flag at a place.
+    #[inline]
+    pub fn raise(&self, place: usize) {
+        self.0[place].store(true, Relaxed);
+    }
 }
 
 /// Calls `work` for each number below `count`.

@@ -34,8 +34,8 @@ pub(super) fn snap(
     })?;
     for &node in &snapped.nodes {
         holds.holds[problem.nodes[node as usize].index()] = Hold::Held;
-        wake(problem, node, allowed, awake);
     }
+    wake(problem, &snapped.nodes, allowed, awake);
     Ok(snapped.nodes.len())
 }
 

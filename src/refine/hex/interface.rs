@@ -7,7 +7,6 @@ use super::stage::StageMesh;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES_AT;
 use crate::mesh::topology::Side;
-use crate::monitor::batches;
 use crate::optimize::FaceKind;
 use crate::{Cancelled, Monitor, parallel};
 
@@ -35,6 +34,9 @@ pub(super) struct Interface<'a> {
 
 const NONE: u32 = u32::MAX;
 
+/// Hexes that are looked at before the monitor is asked again.
+const BATCH: usize = 1 << 20;
+
 impl<'a> Interface<'a> {
     /// The interface of the set `refined` in a mesh of `node_count` nodes.
     ///
@@ -46,24 +48,19 @@ impl<'a> Interface<'a> {
         refined: &'a [bool],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let mut sides = vec![0u8; node_count];
-        for batch in batches(hexes.len(), monitor) {
-            let batch = batch?;
-            for (hex, &refined) in hexes[batch.clone()].iter().zip(&refined[batch]) {
-                for node in hex {
-                    sides[node.index()] |= 1 << u8::from(refined);
-                }
-            }
+        // For each node whether a coarse hex has it, then whether a refined one does.
+        let mut sides = vec![false; 2 * node_count];
+        for batch in hexes.chunks(BATCH).zip(refined.chunks(BATCH)) {
+            monitor.proceed()?;
+            let (hexes, refined) = batch;
+            let place = |k: usize| hexes[k].map(|n| 2 * n.index() + usize::from(refined[k]));
+            parallel::raise(&mut sides, hexes.len(), place);
         }
-        let mut place = vec![NONE; node_count];
-        let mut nodes = Vec::new();
-        for batch in batches(node_count, monitor) {
-            for node in batch?.filter(|&node| sides[node] == 3) {
-                place[node] = nodes.len() as u32;
-                nodes.push(NodeId::new(node));
-            }
-        }
+        let nodes = parallel::try_filter(node_count, monitor, |n| sides[2 * n] && sides[2 * n + 1])?;
+        let nodes: Vec<NodeId> = nodes.into_iter().map(NodeId).collect();
         drop(sides);
+        let mut place = vec![NONE; node_count];
+        (0..).zip(&nodes).for_each(|(k, n)| place[n.index()] = k);
         let is_shell = |hex: usize| hexes[hex].iter().any(|n| place[n.index()] != NONE);
         let shell = parallel::try_filter(hexes.len(), monitor, is_shell)?;
         // Nodes that are none of the interface share a last star, which is never asked for.

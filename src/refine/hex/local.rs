@@ -59,38 +59,40 @@ impl Local {
         let mut has_near = vec![false; from.iter().max().map_or(0, |&most| most as usize + 1)];
         near.iter().for_each(|&h| has_near[from[h as usize] as usize] = true);
         let hex_ids = parallel::try_filter(mesh.hexes.len(), monitor, |h| has_near[from[h] as usize])?;
-        Self::of_hexes((&mesh.positions, &mesh.hexes), hex_ids, moves, monitor)
+        Self::of_hexes(&mesh.positions, |h| mesh.hexes[h], hex_ids, moves, monitor)
     }
 
-    /// The hexes at the nodes that move.
+    /// Those of `count` hexes that are at the nodes that move.
     pub(super) fn at(
-        (positions, hexes): (&[Point], &[[NodeId; 8]]),
+        positions: &[Point],
+        (count, hex): (usize, impl Fn(usize) -> [NodeId; 8] + Sync),
         moves: &[bool],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let is_near = |h: usize| hexes[h].iter().any(|n| moves[n.index()]);
-        let hex_ids = parallel::try_filter(hexes.len(), monitor, is_near)?;
-        Self::of_hexes((positions, hexes), hex_ids, moves, monitor)
+        let is_near = |h: usize| hex(h).iter().any(|n| moves[n.index()]);
+        let hex_ids = parallel::try_filter(count, monitor, is_near)?;
+        Self::of_hexes(positions, hex, hex_ids, moves, monitor)
     }
 
     fn of_hexes(
-        (positions, hexes): (&[Point], &[[NodeId; 8]]),
+        positions: &[Point],
+        hex: impl Fn(usize) -> [NodeId; 8] + Sync,
         hex_ids: Vec<u32>,
         moves: &[bool],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let hex_ids: Vec<HexId> = hex_ids.into_iter().map(HexId).collect();
+        let nodes_of = |k: usize| hex(hex_ids[k].index()).map(NodeId::index);
+        let has = parallel::flags(positions.len(), hex_ids.len(), nodes_of);
+        let nodes: Vec<NodeId> =
+            parallel::try_filter(has.len(), monitor, |n| has[n])?.into_iter().map(NodeId).collect();
+        drop(has);
         let mut number = vec![NodeId(u32::MAX); positions.len()];
-        hex_ids.iter().flat_map(|h| hexes[h.index()]).for_each(|n| number[n.index()] = NodeId(0));
-        let mut nodes = Vec::new();
-        for (n, number) in number.iter_mut().enumerate().filter(|(_, number)| **number == NodeId(0)) {
-            *number = NodeId::new(nodes.len());
-            nodes.push(NodeId::new(n));
-        }
+        nodes.iter().enumerate().for_each(|(k, n)| number[n.index()] = NodeId::new(k));
         monitor.proceed()?;
         Ok(Self {
             positions: nodes.iter().map(|n| positions[n.index()]).collect(),
-            hexes: hex_ids.iter().map(|h| hexes[h.index()].map(|n| number[n.index()])).collect(),
+            hexes: parallel::try_collect(hex_ids.len(), monitor, |k| nodes_of(k).map(|n| number[n]))?,
             movable: nodes.iter().map(|n| moves[n.index()]).collect(),
             nodes,
             hex_ids,

@@ -5,7 +5,6 @@
 
 use super::local::Local;
 use super::pillow::Pillow;
-use crate::mesh::NodeId;
 use crate::optimize::{Constraints, OptimizeOptions, SMOOTHING};
 use crate::{Cancelled, Monitor, Stage};
 
@@ -24,9 +23,8 @@ pub(super) fn open(pillow: &mut Pillow, monitor: &dyn Monitor) -> Result<(), Can
     let Pillow { positions, hexes, layer, .. } = pillow;
     let mut moves = vec![false; positions.len()];
     layer.iter().flat_map(|hex| hex.hex).for_each(|n| moves[n.index()] = true);
-    let all: Vec<[NodeId; 8]> = hexes.iter().copied().chain(layer.iter().map(|hex| hex.hex)).collect();
-    let mut local = Local::at((positions, &all), &moves, monitor)?;
-    drop(all);
+    let hex = |h: usize| hexes.get(h).copied().unwrap_or_else(|| layer[h - hexes.len()].hex);
+    let mut local = Local::at(positions, (hexes.len() + layer.len(), hex), &moves, monitor)?;
     if local.is_inside(&local.faces(monitor)?) {
         local.optimize(&Constraints::none(local.node_count()), &OPTIONS, monitor)?;
         local.write_back(positions);
@@ -57,7 +55,7 @@ mod tests {
     use crate::Silent;
     use crate::geometry::{Aabb, Point};
     use crate::mesh::quality::scaled_jacobian;
-    use crate::mesh::{GridOptions, HexMesh, hex_grid};
+    use crate::mesh::{GridOptions, HexMesh, NodeId, hex_grid};
 
     fn pillow_around(mesh: &HexMesh, is_in: impl Fn(Point) -> bool) -> Pillow {
         let middle = |hex: &[NodeId; 8]| hex.iter().map(|n| mesh.positions[n.index()]).sum::<Point>() / 8.0;
