@@ -6,7 +6,7 @@ use super::stage::{StageError, StageMesh, StageResult, opened_stage};
 use crate::Monitor;
 use crate::mesh::HexId;
 use crate::mesh::topology::HexFaces;
-use crate::optimize::{BoundarySurface, OptimizeOptions};
+use crate::optimize::{BoundarySurface, Constraints, OptimizeOptions};
 
 /// How a stage ended.
 pub(super) enum Attempt {
@@ -41,16 +41,16 @@ pub(super) fn attempt(
         return Ok(Attempt::Made(Box::new(next)));
     }
     let mut local = Local::around(&next, monitor)?;
-    let faces = local.faces(monitor)?;
-    let is_inside = next.mesh.materials.is_empty() && local.is_inside(&faces);
-    let options = smoothing(method, is_inside);
+    let faces = if next.is_inside { None } else { Some(local.faces(monitor)?) };
+    let has_none = |faces: &HexFaces| next.mesh.materials.is_empty() && local.is_inside(faces);
+    let options = smoothing(method, faces.as_ref().is_none_or(has_none));
     let mut tangled = relax(&next, (&mut local, faces), surface, &options, monitor)?;
     for rings in WIDER {
         if tangled.is_empty() {
             break;
         }
         local = Local::wider(&next, &tangled, rings, monitor)?;
-        let faces = local.faces(monitor)?;
+        let faces = Some(local.faces(monitor)?);
         tangled = relax(&next, (&mut local, faces), surface, &options, monitor)?;
     }
     local.write_back(&mut next.mesh.positions);
@@ -70,15 +70,19 @@ fn smoothing(method: Method, is_inside: bool) -> OptimizeOptions {
     }
 }
 
-/// Untangles and smooths some hexes of a stage. Those that stay inverted.
+/// Untangles and smooths some hexes of a stage, whose faces tell what their nodes are kept on: nothing, if there are none.
+/// Those that stay inverted.
 fn relax(
     stage: &StageResult,
-    (local, faces): (&mut Local, HexFaces),
+    (local, faces): (&mut Local, Option<HexFaces>),
     surface: &BoundarySurface,
     options: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<Vec<HexId>, HexRefineError> {
-    let constraints = local.constraints(faces, &stage.mesh, surface, monitor)?;
+    let constraints = match faces {
+        Some(faces) => local.constraints(faces, &stage.mesh, surface, monitor)?,
+        None => Constraints::none(local.node_count()),
+    };
     let mut report = local.optimize(&constraints, options, monitor)?;
     if report.off_boundary > STRAYED * local.shortest_edge() {
         // A node has passed the end of its patch: it lies in the plane of that, but no more on the boundary.

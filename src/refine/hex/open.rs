@@ -15,9 +15,9 @@ const OPENING: Stage = Stage("opening");
 const OPTIONS: OptimizeOptions =
     OptimizeOptions { target: 1.0, untangle_sweeps: 200, courses: 1, smooth_sweeps: 4, worst_sweeps: 0 };
 
-/// Moves the layer's nodes, if none of them is on the boundary. There layers often stand between ridges with no room to
+/// Moves the layer's nodes, if none of them is on the boundary, and says if that is so. There layers often stand between ridges with no room to
 /// open, and what they leave to the next stage is then worse.
-pub(super) fn open(pillow: &mut Pillow, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+pub(super) fn open(pillow: &mut Pillow, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
     let monitor = &Opening(monitor);
     monitor.0.checkpoint(OPENING, 0.0)?;
     let Pillow { positions, hexes, layer, .. } = pillow;
@@ -25,11 +25,12 @@ pub(super) fn open(pillow: &mut Pillow, monitor: &dyn Monitor) -> Result<(), Can
     layer.iter().flat_map(|hex| hex.hex).for_each(|n| moves[n.index()] = true);
     let hex = |h: usize| hexes.get(h).copied().unwrap_or_else(|| layer[h - hexes.len()].hex);
     let mut local = Local::at(positions, (hexes.len() + layer.len(), hex), &moves, monitor)?;
-    if local.is_inside(&local.faces(monitor)?) {
+    let is_inside = local.is_inside(&local.faces(monitor)?);
+    if is_inside {
         local.optimize(&Constraints::none(local.node_count()), &OPTIONS, monitor)?;
         local.write_back(positions);
     }
-    Ok(())
+    Ok(is_inside)
 }
 
 /// Tells the progress of smoothing as that of a stage of its own: smoothing is yet to come.
@@ -78,11 +79,11 @@ mod tests {
         let is_in = |p: Point| p.min_element() > 2.0 && p.max_element() < 4.0 && p.x.min(p.y) < 3.0;
         let mut inside = pillow_around(&mesh, is_in);
         let before = worst(&inside);
-        open(&mut inside, &Silent).unwrap();
+        assert!(open(&mut inside, &Silent).unwrap());
         assert!(worst(&inside) > before, "{} after {before}", worst(&inside));
         let mut through = pillow_around(&mesh, |p| p.x.min(p.y) < 3.0);
         let before = through.positions.clone();
-        open(&mut through, &Silent).unwrap();
+        assert!(!open(&mut through, &Silent).unwrap());
         assert_eq!(through.positions, before);
     }
 }

@@ -96,6 +96,8 @@ pub struct StageResult {
     /// The nodes that the stage made or moved between refined and coarse hexes, ascending: those that may be
     /// moved to improve the transition hexes.
     pub layer_nodes: Vec<NodeId>,
+    /// Is none of these on the boundary, as far as is known?
+    pub is_inside: bool,
     /// What was done, in numbers.
     pub report: StageReport,
 }
@@ -255,9 +257,7 @@ fn pillowed_stage(
     (split, divided): (&'static Template, Vec<Divided>),
     monitor: &dyn Monitor,
 ) -> Result<StageResult, StageError> {
-    if is_opened && mesh.materials.is_empty() {
-        open(&mut pillow, monitor)?;
-    }
+    let is_inside = is_opened && mesh.materials.is_empty() && open(&mut pillow, monitor)?;
     let Pillow { positions, hexes, layer, pinched_edges } = pillow;
     let of_coarse = |(hex, divided): (&LayerHex, Divided)| Transition {
         from: hex.face.coarse,
@@ -281,5 +281,6 @@ fn pillowed_stage(
         copies: positions.len() - mesh.positions.len(),
         ..Transitions::default()
     };
-    Ok(assemble(mesh, (positions, Cow::Owned(hexes)), refined, split, transitions, monitor)?)
+    let result = assemble(mesh, (positions, Cow::Owned(hexes)), refined, split, transitions, monitor)?;
+    Ok(StageResult { is_inside, ..result })
 }

@@ -130,7 +130,7 @@ pub(super) fn assemble(
         copies: transitions.copies,
     };
     let layer_nodes = nodes_of(&mesh.hexes[first_transition..], mesh.positions.len());
-    Ok(StageResult { mesh, from, first_transition, layer_nodes, report })
+    Ok(StageResult { mesh, from, first_transition, layer_nodes, is_inside: false, report })
 }
 
 /// The nodes of some hexes, ascending.
