@@ -59,11 +59,9 @@ const BINARYEN_FEATURES = [
 ].map((feature) => `--enable-${feature}`);
 
 // What a module is compiled for, in place of its profile's level: millions of quads a second, or that functions are put
-// into others only where that costs little, which keeps the larger modules a tenth smaller. Refinement of hexes is as fast
-// with hardly any.
+// into others hardly anywhere but where they say so, which keeps the larger modules a tenth smaller, and as fast.
 const FAST = ['-C', 'opt-level=3'];
-const SMALL = ['-C', 'llvm-args=-inline-threshold=40'];
-const SMALLEST = ['-C', 'llvm-args=-inline-threshold=8'];
+const SMALL = ['-C', 'llvm-args=-inline-threshold=8'];
 
 const ON_ONE_THREAD = { profile: 'web-mesher', optimize: ['-O3'] };
 
@@ -77,8 +75,8 @@ const ON_A_POOL = {
 const FLAVOURS = [
   { name: 'mesher', rustc: FAST, features: 'quads', ...ON_ONE_THREAD },
   { name: 'mesher-threads', rustc: FAST, features: 'quads,threads', ...ON_A_POOL },
-  { name: 'hexes', rustc: SMALLEST, features: 'hexes', ...ON_ONE_THREAD },
-  { name: 'hexes-threads', rustc: SMALLEST, features: 'hexes,threads', ...ON_A_POOL },
+  { name: 'hexes', rustc: SMALL, features: 'hexes', ...ON_ONE_THREAD },
+  { name: 'hexes-threads', rustc: SMALL, features: 'hexes,threads', ...ON_A_POOL },
   { name: 'solids', rustc: SMALL, features: 'solids', ...ON_ONE_THREAD },
   { name: 'solids-threads', rustc: SMALL, features: 'solids,threads', ...ON_A_POOL },
   { name: 'viewer', features: 'viewer' },
