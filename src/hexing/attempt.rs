@@ -72,6 +72,7 @@ pub(super) fn attempt(
 
     let mut sheets = insert_sheets(&mut mesh, &mut on, solid, monitor)?;
     let fitted = fit(&mut mesh, &mut on, &mut sheets, solid, &FitOptions::default(), monitor)?;
+    report.features = Some(FeatureReport::new(solid, &on.reduction));
     if !fitted.inverted.is_empty() {
         return Err(HexingError::Tangled(fitted.inverted.len()));
     }

@@ -15,7 +15,7 @@ use super::background::{Background, BackgroundError, Failure, Missed, retry};
 use super::ground::{Plan, Site};
 use super::merit::{Bar, GOOD, distance, is_better, is_far, worst};
 use super::options::{HexingError, HexingOptions};
-use super::report::{AttemptReport, BodyReport};
+use super::report::{AttemptReport, BodyReport, RefusedAttempt};
 use crate::Monitor;
 use crate::solid::SolidModel;
 
@@ -60,7 +60,8 @@ pub(super) fn mesh_body(
     monitor: &dyn Monitor,
 ) -> Result<Body, HexingError> {
     let site = Site::new(solid, options, monitor)?;
-    let mut search = Search { site: &site, attempts: Vec::new(), best: None, tangled: None, monitor };
+    let mut search =
+        Search { site: &site, attempts: Vec::new(), refused: Vec::new(), best: None, tangled: None, monitor };
     let first = Plan::of(site.choice.kind);
     match search.attempt(first, options.max_hexes) {
         Err(HexingError::NothingLeft { .. }) => return Ok(search.end(&site)),
@@ -102,6 +103,7 @@ pub(super) fn mesh_body(
 struct Search<'a> {
     site: &'a Site<'a>,
     attempts: Vec<AttemptReport>,
+    refused: Vec<RefusedAttempt>,
     best: Option<Best>,
     /// Hexes that were inverted in an attempt that gave no mesh.
     tangled: Option<usize>,
@@ -149,10 +151,16 @@ impl Search<'_> {
         (growth * first.map_or(0, |first| first.core.background) as f64) as u64
     }
 
-    /// Makes an attempt more, if its background has no more than `limit` hexes. False if there is no such background.
+    /// Makes an attempt more, if its background has no more than `limit` hexes. False if there is no such background, which
+    /// is noted.
     fn another(&mut self, plan: Plan, limit: u64) -> Result<bool, HexingError> {
+        let Plan { kind: background, shift, .. } = plan;
         match self.attempt(plan, limit) {
-            Err(HexingError::Background(_)) => Ok(false),
+            Err(HexingError::Background(error)) => {
+                let (code, reason) = (error.code(), error.to_string());
+                self.refused.push(RefusedAttempt { background, shift, limit, code, reason });
+                Ok(false)
+            }
             // It was an attempt.
             Err(HexingError::NothingLeft { .. }) => Ok(true),
             made => made.map(|()| true),
@@ -200,6 +208,7 @@ impl Search<'_> {
             directions: site.directions.clone(),
             kept: self.number(),
             attempts: self.attempts,
+            refused: self.refused,
         };
         Body { best: self.best, report }
     }

@@ -2,7 +2,7 @@
 
 use super::background::{Failure, OctreeMesh};
 use super::core::Core;
-use super::correspondence::{CurveFate, Reason, Reduction};
+use super::correspondence::{CurveFate, LostCurve, Reason, Reduction};
 use super::ground::Site;
 use super::options::HexingOptions;
 use crate::geometry::{Aabb, BoxIndex, Point};
@@ -61,7 +61,8 @@ pub(super) fn misses(
     let (solid, edge_length) = (site.solid, site.edge_length());
     let finest = edge_length / f64::from(1u32 << site.finest());
     let mut failures = Vec::new();
-    for lost in reduction.lost_curves.iter().filter(|lost| lost.fate == CurveFate::Suppressed) {
+    let is_missed = |lost: &LostCurve| lost.fate == CurveFate::Suppressed && lost.reason != Reason::Costly;
+    for lost in reduction.lost_curves.iter().filter(|lost| is_missed(lost)) {
         // What even the finest cells are too large for is given up at once.
         if lost.reason != Reason::Short || lost.length >= AROUND * finest {
             failures.push(Failure::of_curve(solid, lost.curve, 0, finest));

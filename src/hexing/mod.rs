@@ -32,6 +32,6 @@ pub use options::{HexingError, HexingOptions};
 pub use pipeline::{HexedSolid, hex_solid};
 pub use report::{
     AttemptReport, BodyReport, Captured, FeatureReport, FitCounts, HexingReport, LostFeature, MeshedReport,
-    ResultReport, SheetCounts,
+    RefusedAttempt, ResultReport, SheetCounts,
 };
 pub use second_order::SecondOrderReport;

@@ -39,8 +39,26 @@ pub struct BodyReport {
     pub directions: Vec<DirectionScore>,
     /// What came of each attempt.
     pub attempts: Vec<AttemptReport>,
+    /// Attempts for which there was no background.
+    pub refused: Vec<RefusedAttempt>,
     /// Which attempt was kept; none where the body is too thin for any cell, and not in the mesh.
     pub kept: Option<usize>,
+}
+
+/// An attempt for which there was no background.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct RefusedAttempt {
+    /// What the core was to be cut out of.
+    pub background: Background,
+    /// How far the lines of a grid were to be moved, as a share of an edge along each axis.
+    pub shift: [f64; 3],
+    /// How many hexes the background might have.
+    pub limit: u64,
+    /// Why there is none, by a stable name.
+    pub code: &'static str,
+    /// The same in words.
+    pub reason: String,
 }
 
 /// What came of one pass from a background to a mesh.

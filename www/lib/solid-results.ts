@@ -123,6 +123,8 @@ export interface BodyReport {
   directions: { direction: Vector; area: number; surfaceCapture: number; volumeCapture: number; score: number }[];
   /** What came of each attempt. */
   attempts: SolidAttempt[];
+  /** Further attempts for which there was no background: what kind, of how many hexes at most, and why there is none. */
+  refused: { background: Background; shift: Vector; limit: number; code: string; reason: string }[];
   /** Which attempt was kept; null for a body that is too thin for any hex, and not in the mesh. */
   kept: number | null;
 }

@@ -1,8 +1,8 @@
 //! What each part of the mesh stands for on the solid.
 
-use super::Reduction;
+use super::{CurveFate, Reason, Reduction};
 use crate::mesh::NodeId;
-use crate::solid::{CornerId, CurveId, SurfaceId};
+use crate::solid::{CornerId, CurveId, SolidModel, SurfaceId};
 
 /// Where a node belongs. Corners and surfaces are those that stand for others too, as [`Reduction`] says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -57,5 +57,42 @@ impl Correspondence {
         let ends = [a.min(b), a.max(b)];
         let at = self.edges.binary_search_by_key(&ends, |&(ends, _)| ends).ok()?;
         Some(self.edges[at].1)
+    }
+
+    /// The captured curves at a corner and at those that it stands for, ascending.
+    pub(in super::super) fn curves_at(&self, solid: &SolidModel, corner: CornerId) -> Vec<CurveId> {
+        let ends_there = |c: &CurveId| {
+            let ends = solid.curves()[c.index()].ends.into_iter().flatten();
+            self.reduction.curve(*c) == CurveFate::Captured
+                && ends.into_iter().any(|end| self.reduction.corner(end) == corner)
+        };
+        (0..solid.curves().len()).map(CurveId::new).filter(ends_there).collect()
+    }
+
+    /// Gives a captured curve up: its nodes stand for the surface at its sides from now on, which is one then, and so do
+    /// corners where no other curve ends.
+    pub(in super::super) fn give_up(&mut self, solid: &SolidModel, curve: CurveId, reason: Reason) {
+        let of_solid = &solid.curves()[curve.index()];
+        let [a, b] = of_solid.sides.map(|side| self.reduction.surface(side));
+        let (stays, goes) = (a.min(b), a.max(b));
+        self.reduction.give_up(solid, curve, reason);
+        self.edges.retain(|(_, on)| *on != curve);
+        let ends: Vec<CornerId> =
+            of_solid.ends.into_iter().flatten().map(|end| self.reduction.corner(end)).collect();
+        let bare: Vec<CornerId> =
+            ends.into_iter().filter(|&end| self.curves_at(solid, end).is_empty()).collect();
+        for anchor in &mut self.anchors {
+            *anchor = match *anchor {
+                Anchor::Curve(on) if on == curve => Anchor::Surface(stays),
+                Anchor::Surface(on) if on == goes => Anchor::Surface(stays),
+                Anchor::Corner(on) if bare.contains(&on) => Anchor::Surface(stays),
+                other => other,
+            };
+        }
+        self.faces.iter_mut().filter(|(_, on)| *on == goes).for_each(|(_, on)| *on = stays);
+        let lost = &mut self.reduction.lost_corners;
+        lost.extend(bare);
+        lost.sort_unstable();
+        lost.dedup();
     }
 }

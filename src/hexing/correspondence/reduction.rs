@@ -23,6 +23,8 @@ pub enum Reason {
     NoNode,
     /// No path of boundary edges near it is left that keeps clear of the other curves.
     NoPath,
+    /// It is soft, and the cells at it would be poor.
+    Costly,
 }
 
 /// A curve that was given up.
@@ -94,6 +96,25 @@ impl Reduction {
     /// How many curves have that fate.
     pub fn count(&self, fate: CurveFate) -> usize {
         self.curves.iter().filter(|&&f| f == fate).count()
+    }
+
+    /// Notes that a captured curve is given up, and unites the surfaces at its sides.
+    pub(super) fn give_up(&mut self, solid: &SolidModel, curve: CurveId, reason: Reason) {
+        let of_solid = &solid.curves()[curve.index()];
+        let place = solid.point_on_curve(curve, 0.5 * of_solid.length);
+        self.curves[curve.index()] = CurveFate::Suppressed;
+        let lost = LostCurve { curve, fate: CurveFate::Suppressed, reason, place, length: of_solid.length };
+        let at = self.lost_curves.partition_point(|other| other.curve < curve);
+        self.lost_curves.insert(at, lost);
+        let [a, b] = of_solid.sides.map(|side| self.surface(side));
+        let (stays, goes) = (a.min(b), a.max(b));
+        if stays != goes {
+            let more = std::mem::take(&mut self.members[goes.index()]);
+            let members = &mut self.members[stays.index()];
+            members.extend(more);
+            members.sort_unstable();
+            self.surfaces.iter_mut().filter(|s| **s == goes).for_each(|s| *s = stays);
+        }
     }
 
     /// The point nearest to `p` on the surfaces that `representative` stands for. If it stands for none, on itself.

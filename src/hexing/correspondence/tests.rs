@@ -154,3 +154,21 @@ fn a_plate_of_one_layer_keeps_both_faces() {
     let solid = crate::solid::testing::solid(&turned(cuboid([6, 5, 1]), 0.3));
     check(&core(&solid, 0.45), &solid, [12, 0, 0]);
 }
+
+/// Curves that are given up later, one after the other, leave a correspondence that holds what it promises.
+#[test]
+fn captured_curves_can_be_given_up() {
+    for (surface, h) in [(ell(), 0.2), (holed(), 0.25), (cylinder(24), 0.17), (pyramid(4), 0.16)] {
+        let solid = solid(&surface);
+        let mesh = core(&solid, h);
+        let mut on = correspond(&mesh, &solid, &Silent).unwrap();
+        for curve in (0..solid.curves().len()).map(crate::solid::CurveId::new) {
+            on.give_up(&solid, curve, Reason::Costly);
+            assert_eq!(check_correspondence(&mesh, &solid, &on), [], "{curve:?}");
+        }
+        assert_eq!((on.edges.len(), on.reduction.count(CurveFate::Captured)), (0, 0));
+        let lost = &on.reduction.lost_curves;
+        assert!(lost.is_sorted_by_key(|lost| lost.curve) && lost.iter().all(|l| l.reason == Reason::Costly));
+        assert!(on.anchors.iter().all(|anchor| matches!(anchor, Anchor::Inside | Anchor::Surface(_))));
+    }
+}

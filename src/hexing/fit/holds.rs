@@ -39,16 +39,17 @@ pub(super) struct Holds<'a> {
 impl<'a> Holds<'a> {
     /// All nodes free.
     pub(super) fn free(target: &'a dyn Target, anchors: &'a [Anchor]) -> Self {
-        Self::with(target, anchors, vec![Hold::Free; anchors.len()])
+        Self::of(target, anchors, vec![Hold::Free; anchors.len()])
     }
 
     /// All boundary nodes drawn.
     pub(super) fn drawn(target: &'a dyn Target, anchors: &'a [Anchor]) -> Self {
         let hold = |&anchor: &Anchor| if anchor == Anchor::Inside { Hold::Free } else { Hold::Drawn };
-        Self::with(target, anchors, anchors.iter().map(hold).collect())
+        Self::of(target, anchors, anchors.iter().map(hold).collect())
     }
 
-    fn with(target: &'a dyn Target, anchors: &'a [Anchor], holds: Vec<Hold>) -> Self {
+    /// With the holds given.
+    pub(super) fn of(target: &'a dyn Target, anchors: &'a [Anchor], holds: Vec<Hold>) -> Self {
         Self { target, anchors, places: vec![None; holds.len()], holds, weight: 0.0, surfaces: 1.0 }
     }
 

@@ -7,7 +7,8 @@
 //!    strongly, and held there (`snap`) as soon as the cells bear it. No step is taken that turns a cell over;
 //! 3. `unlock`: around nodes that got stuck the others are let go for a while;
 //! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: as long
-//!    as fewer nodes are stuck than before, the last two steps are made again, twice at most.
+//!    as fewer nodes are stuck than before, the last two steps are made again, twice at most;
+//! 5. `soften`: soft curves that cost cells are given up, and the worst cells smoothed once more.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
 //! off the solid and is reported with its distance.
@@ -20,6 +21,7 @@ mod inflate;
 mod progress;
 mod pull;
 mod snap;
+mod soften;
 mod spread;
 mod target;
 mod unlock;
@@ -29,13 +31,14 @@ use super::sheets::SheetReport;
 use crate::geometry::Point;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexId, HexMesh, NodeId};
-use crate::optimize::{OptimizeOptions, Problem, smooth};
+use crate::optimize::{OptimizeOptions, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
 use holds::{Hold, Holds};
 use inflate::inflate;
 use progress::Part;
 use pull::{Course, pull};
+use soften::soften;
 use spread::chains;
 #[cfg(test)]
 pub(super) use target::Foot;
@@ -51,6 +54,9 @@ const FLOOR: f64 = 0.2;
 /// long as that frees some.
 const PULL: f64 = 0.1;
 const UNLOCK: [f64; 3] = [0.4, 0.6, 0.8];
+
+/// The share of the work that is done where soft curves are given up.
+const SOFTEN: f64 = 0.95;
 
 /// How much of the work a round of these is, and unlocking alone.
 const ROUND: f64 = 0.2;
@@ -103,7 +109,7 @@ pub struct FitReport {
 }
 
 /// Moves the nodes of `mesh` to the solid as `on` tells. Sheets that cannot be fitted are taken back, in all of `mesh`,
-/// `on` and `sheets`.
+/// `on` and `sheets`; soft curves that leave no room for good cells are given up in `on`.
 ///
 /// # Errors
 /// [`Cancelled`] when the monitor says so; then nodes are where they were.
@@ -115,10 +121,26 @@ pub fn fit(
     options: &FitOptions,
     monitor: &dyn Monitor,
 ) -> Result<FitReport, Cancelled> {
+    let before = mesh.positions.clone();
     let reduction = on.reduction.clone();
-    fit_to(mesh, on, sheets, &OnSolid::new(solid, &reduction), options, monitor)
+    let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
+    let (mut report, holds) =
+        fitted(mesh, on, sheets, &OnSolid::new(solid, &reduction), options, &part(0.0, SOFTEN))?;
+    if report.inverted.is_empty() {
+        match soften(mesh, on, &holds, solid, &part(SOFTEN, 1.0)) {
+            Ok(sweeps) => report.sweeps += sweeps,
+            Err(cancelled) => {
+                mesh.positions = before;
+                return Err(cancelled);
+            }
+        }
+        (report.worst, report.mean) = quality(mesh);
+        report.off = off(mesh, on, &holds, &OnSolid::new(solid, &on.reduction));
+    }
+    Ok(report)
 }
 
+#[cfg(test)]
 fn fit_to(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
@@ -127,6 +149,18 @@ fn fit_to(
     options: &FitOptions,
     monitor: &dyn Monitor,
 ) -> Result<FitReport, Cancelled> {
+    Ok(fitted(mesh, on, sheets, target, options, monitor)?.0)
+}
+
+/// Fits to the target; what holds each node in the end is told too.
+fn fitted(
+    mesh: &mut HexMesh,
+    on: &mut Correspondence,
+    sheets: &mut SheetReport,
+    target: &dyn Target,
+    options: &FitOptions,
+    monitor: &dyn Monitor,
+) -> Result<(FitReport, Vec<Hold>), Cancelled> {
     let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
     monitor.checkpoint(FITTING, 0.0)?;
     let inflated = inflate(mesh, on, sheets, target, &part(0.0, PULL))?;
@@ -154,33 +188,41 @@ fn fit_to(
     monitor.checkpoint(FITTING, 1.0)?;
 
     problem.write_back(&mut mesh.positions);
-    let mut report = measured(mesh, &problem, &holds);
-    (report.taken_back, report.sweeps) = (inflated.taken_back, sweeps);
-    Ok(report)
-}
-
-/// How the mesh is now.
-fn measured(mesh: &HexMesh, problem: &Problem, holds: &Holds) -> FitReport {
-    let jacobians = parallel::collect(mesh.hexes.len(), |h| {
-        scaled_jacobian(&mesh.hexes[h].map(|n| mesh.positions[n.index()]))
-    });
-    let mut off = parallel::filter_map(mesh.positions.len(), |n| {
-        let place = mesh.positions[n];
-        let foot = holds.target.foot(holds.anchors[n], place)?;
-        let off = OffNode { node: NodeId::new(n), place, distance: foot.point.distance(place) };
-        holds.is(off.node, Hold::Drawn).then_some(off)
-    });
-    off.sort_by(|a, b| b.distance.total_cmp(&a.distance).then(a.node.cmp(&b.node)));
-    FitReport {
-        off,
-        worst: jacobians.iter().copied().reduce(f64::min),
-        mean: jacobians.iter().sum::<f64>() / jacobians.len().max(1) as f64,
+    let holds = holds.holds;
+    let (worst, mean) = quality(mesh);
+    let report = FitReport {
+        taken_back: inflated.taken_back,
+        sweeps,
+        off: off(mesh, on, &holds, target),
+        worst,
+        mean,
         inverted: parallel::filter(problem.cells.len(), |cell| !problem.is_positive(cell))
             .into_iter()
             .map(HexId)
             .collect(),
-        ..Default::default()
-    }
+    };
+    Ok((report, holds))
+}
+
+/// The least scaled Jacobian, if there is one, and the mean.
+fn quality(mesh: &HexMesh) -> (Option<f64>, f64) {
+    let jacobians = parallel::collect(mesh.hexes.len(), |h| {
+        scaled_jacobian(&mesh.hexes[h].map(|n| mesh.positions[n.index()]))
+    });
+    let mean = jacobians.iter().sum::<f64>() / jacobians.len().max(1) as f64;
+    (jacobians.into_iter().reduce(f64::min), mean)
+}
+
+/// The nodes that are still drawn, the farthest first.
+fn off(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], target: &dyn Target) -> Vec<OffNode> {
+    let mut off = parallel::filter_map(mesh.positions.len(), |n| {
+        let place = mesh.positions[n];
+        let foot = target.foot(on.anchors[n], place)?;
+        let off = OffNode { node: NodeId::new(n), place, distance: foot.point.distance(place) };
+        (holds[n] == Hold::Drawn).then_some(off)
+    });
+    off.sort_by(|a, b| b.distance.total_cmp(&a.distance).then(a.node.cmp(&b.node)));
+    off
 }
 
 #[cfg(test)]

@@ -1,0 +1,182 @@
+//! Gives up soft curves that cost cells, and smooths the worst cells once more.
+//!
+//! On shapes that nobody drew with features some creases are found all the same: where they end or branch within a surface,
+//! or go round a small part of it, nodes are held at places that have no room for good cells. As long as cells are poor,
+//!
+//! 1. the curve at each that is missed least is given up: its nodes slide on the surface from now on;
+//! 2. the cells around are smoothed, with many sweeps, since they are few.
+
+use std::collections::BTreeSet;
+
+use super::super::correspondence::{Anchor, Correspondence, CurveFate, Reason};
+use super::FITTING;
+use super::holds::{Hold, Holds};
+use super::progress::Part;
+use super::target::OnSolid;
+use crate::geometry::Point;
+use crate::mesh::numbering::hex::EDGES;
+use crate::mesh::quality::scaled_jacobian;
+use crate::mesh::{HexMesh, NodeId};
+use crate::optimize::{OptimizeOptions, Problem, smooth};
+use crate::solid::{CurveId, SolidModel, SurfaceId};
+use crate::{Cancelled, Monitor, parallel};
+
+/// Cells whose scaled Jacobian is below this are poor.
+const POOR: f64 = 0.46;
+
+/// A curve between two surfaces is soft if these meet at an angle that is nearer to a straight one than this, in degrees,
+/// and the square root of the area of one of them is less than so many edges; one that ends within a surface, if its angle
+/// is nearer than that.
+const SOFT: f64 = 60.0;
+const SMALL: f64 = 0.8;
+const CREASE: f64 = 90.0;
+
+/// How often curves are given up.
+const ROUNDS: usize = 8;
+
+/// Rings of cells around poor ones whose nodes move.
+const RINGS: usize = 3;
+
+/// How the cells there are smoothed.
+const SMOOTHING: OptimizeOptions =
+    OptimizeOptions { target: 0.65, untangle_sweeps: 0, courses: 4, smooth_sweeps: 6, worst_sweeps: 12 };
+
+/// Mends what can be mended. Returns the number of sweeps.
+pub(super) fn soften(
+    mesh: &mut HexMesh,
+    on: &mut Correspondence,
+    holds: &[Hold],
+    solid: &SolidModel,
+    monitor: &dyn Monitor,
+) -> Result<usize, Cancelled> {
+    let (mut sweeps, mut was_last) = (0, false);
+    for round in 0..ROUNDS {
+        let part = |from: usize| from as f64 / ROUNDS as f64;
+        monitor.checkpoint(FITTING, part(round))?;
+        let low = parallel::filter(mesh.hexes.len(), |h| {
+            scaled_jacobian(&mesh.hexes[h].map(|n| mesh.positions[n.index()])) < POOR
+        });
+        let at_hex = |&h: &u32| {
+            let hex = &mesh.hexes[h as usize];
+            least_missed(hex, mean_edge(&hex.map(|n| mesh.positions[n.index()])), on, solid)
+        };
+        let curves: BTreeSet<CurveId> = low.iter().filter_map(at_hex).collect();
+        if low.is_empty() || was_last {
+            break;
+        }
+        was_last = curves.is_empty();
+        for curve in curves {
+            on.give_up(solid, curve, Reason::Costly);
+        }
+        let near = around(mesh, &low);
+        // Nodes that are off the solid would drift.
+        let moves = |n: NodeId| near[n.index()] && holds[n.index()] != Hold::Drawn;
+        let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
+        problem.order_by(4, |n| on.anchors[n.index()].freedom());
+        let reduction = on.reduction.clone();
+        let target = OnSolid::new(solid, &reduction);
+        let guide = Holds::of(&target, &on.anchors, holds.to_vec());
+        let part = Part { whole: monitor, stage: FITTING, range: [part(round), part(round + 1)] };
+        sweeps += smooth(&mut problem, &guide, &SMOOTHING, &part)?;
+        problem.write_back(&mut mesh.positions);
+    }
+    Ok(sweeps)
+}
+
+/// The mean length of a hex's edges.
+fn mean_edge(corners: &[Point; 8]) -> f64 {
+    let length = |&[a, b]: &[u8; 2]| corners[usize::from(a)].distance(corners[usize::from(b)]);
+    EDGES.iter().map(length).sum::<f64>() / EDGES.len() as f64
+}
+
+/// The nodes of these hexes and of some rings around them.
+fn around(mesh: &HexMesh, hexes: &[u32]) -> Vec<bool> {
+    let mut near = vec![false; mesh.positions.len()];
+    hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).for_each(|n| near[n.index()] = true);
+    for _ in 0..RINGS {
+        let touched = parallel::filter(mesh.hexes.len(), |h| mesh.hexes[h].iter().any(|n| near[n.index()]));
+        touched.iter().flat_map(|&h| mesh.hexes[h as usize]).for_each(|n| near[n.index()] = true);
+    }
+    near
+}
+
+/// Of the soft curves at a hex with edges of that `size` the one that is missed least, the shortest.
+fn least_missed(hex: &[NodeId; 8], size: f64, on: &Correspondence, solid: &SolidModel) -> Option<CurveId> {
+    let curves = hex.iter().flat_map(|n| match on.anchors[n.index()] {
+        Anchor::Curve(curve) => vec![curve],
+        Anchor::Corner(corner) => on.curves_at(solid, corner),
+        _ => Vec::new(),
+    });
+    let is_soft = |curve: &CurveId| {
+        let curve = &solid.curves()[curve.index()];
+        let angle = (curve.interior_angle - 180.0).abs();
+        let [a, b] = curve.sides;
+        let is_small = |s: SurfaceId| solid.surfaces()[s.index()].area < SMALL * SMALL * size * size;
+        if a == b { angle < CREASE } else { angle < SOFT && (is_small(a) || is_small(b)) }
+    };
+    let kept = curves.filter(|curve| on.reduction.curve(*curve) == CurveFate::Captured).filter(is_soft);
+    kept.min_by(|a, b| {
+        let length = |c: &CurveId| solid.curves()[c.index()].length;
+        length(a).total_cmp(&length(b)).then(a.cmp(b))
+    })
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::Silent;
+    use crate::hexing::correspondence::correspond;
+    use crate::mesh::{GridOptions, PolygonMesh, hex_grid};
+
+    /// A house of 2 by 2 whose roof has slopes of 20 degrees.
+    fn house() -> SolidModel {
+        let profile = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [1.0, 1.864], [0.0, 1.5]];
+        let end = |y: f64| profile.map(|[x, z]| Point::new(x, y, z));
+        let mut surface = PolygonMesh { positions: [end(0.0), end(2.0)].concat(), ..PolygonMesh::default() };
+        surface.push_face([0, 1, 2, 3, 4].map(NodeId));
+        surface.push_face([9, 8, 7, 6, 5].map(NodeId));
+        for k in 0..5 {
+            let next = (k + 1) % 5;
+            surface.push_face([next, k, k + 5, next + 5].map(NodeId));
+        }
+        crate::solid::testing::solid(&surface)
+    }
+
+    #[test]
+    fn soft_curves_at_small_surfaces_are_given_up_and_poor_cells_smoothed() {
+        let solid = house();
+        let options = GridOptions { spacing: 0.5, margin: 0.0, fitted: true, max_hexes: 1000 };
+        let mut mesh = hex_grid(solid.bounds(), &options).unwrap();
+        // Up to the roof.
+        for p in &mut mesh.positions {
+            p.z *= (1.864 - 0.364 * (p.x - 1.0).abs()) / 1.864;
+        }
+        let mut on = correspond(&mesh, &solid, &Silent).unwrap();
+        let curves = solid.curves().len();
+        assert_eq!(on.reduction.count(CurveFate::Captured), curves);
+        let angle = |c: &CurveId| solid.curves()[c.index()].interior_angle;
+        let ridge = (0..curves).map(CurveId::new).find(|c| (angle(c) - 140.0).abs() < 1.0);
+        let is_there =
+            |hex: &&[NodeId; 8]| hex.iter().any(|n| on.anchors[n.index()] == Anchor::Curve(ridge.unwrap()));
+        let hex = mesh.hexes.iter().find(is_there).unwrap();
+        assert_eq!(least_missed(hex, 10.0, &on, &solid), ridge);
+        assert_eq!(least_missed(hex, 0.5, &on, &solid), None);
+
+        let hold = |anchor: &Anchor| if *anchor == Anchor::Inside { Hold::Free } else { Hold::Held };
+        let holds: Vec<Hold> = on.anchors.iter().map(hold).collect();
+        assert_eq!(soften(&mut mesh, &mut on, &holds, &solid, &Silent), Ok(0));
+        let worst = |mesh: &HexMesh| {
+            let jacobian = |hex: &[NodeId; 8]| scaled_jacobian(&hex.map(|n| mesh.positions[n.index()]));
+            mesh.hexes.iter().map(jacobian).fold(1.0, f64::min)
+        };
+        let top = Point::new(1.0, 1.0, 1.864);
+        let below = (0..mesh.positions.len()).filter(|&n| on.anchors[n] == Anchor::Inside);
+        let below = below
+            .min_by(|&a, &b| mesh.positions[a].distance(top).total_cmp(&mesh.positions[b].distance(top)));
+        mesh.positions[below.unwrap()] += Point::X * 0.32;
+        assert!((0.0..POOR).contains(&worst(&mesh)));
+        assert!(soften(&mut mesh, &mut on, &holds, &solid, &Silent).unwrap() > 0);
+        assert!(worst(&mesh) > POOR);
+        assert_eq!(on.reduction.count(CurveFate::Captured), curves);
+    }
+}
