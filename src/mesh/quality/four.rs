@@ -48,7 +48,7 @@ fn by_four<T: Send>(
     Ok(all)
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
     use super::*;
     use crate::Silent;
