@@ -20,7 +20,7 @@ export type Method = 'one' | 'two' | 'three' | 'auto';
 
 /**
  * Whether the refined set may grow beyond what is asked for, so that a method can join it to the coarse hexes. Families of
- * eight and levels that differ by one are no growth.
+ * eight, and so the whole input refined once by Methods I and II, and levels that differ by one are no growth.
  *
  * - `allow`: it grows to what the method needs, and `added` tells how far.
  * - `refuse`: where it would have to grow nothing is done, and the error tells where and how far.

@@ -9,7 +9,8 @@
 //! | II | 7 a face |
 //! | 3-refinement | 13 a face |
 //!
-//! The figures are exact, unless a stage is made again for hexes that cannot be untangled.
+//! The figures are exact, unless a stage is made again with more refined: for hexes that cannot be untangled, or for an
+//! interface that cannot be separated from ridges or from faces between materials, which the trees do not know.
 
 use serde::Serialize;
 

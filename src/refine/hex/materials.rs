@@ -1,5 +1,5 @@
-//! Faces between materials, that is between hexes with different sets of tags, or in groups (`sheets`). They stay where they are, as the boundary
-//! does: nodes on them move along them alone.
+//! Faces between materials, that is between hexes with different sets of tags, or in groups (`sheets`). They stay where
+//! they are, as the boundary does: nodes on them move along them alone.
 //!
 //! Where such a face is one between refined and coarse hexes too, the layer's hex upon it belongs to one of the two
 //! materials, and the nodes of the other side are kept. Let S and A be the materials, the line between them where they

@@ -13,9 +13,9 @@
 //! ([`StageResult::layer_nodes`]).
 //!
 //! **Promises.** The mesh conforms: hexes share whole faces, by node ids. Boundary nodes stay on the boundary's faces
-//! and ridges where these are planar and straight, and so do nodes between materials (`materials`). Method I inverts no hex of a mesh of convex hexes with planar faces;
-//! Method II and 3-refinement may leave inverted hexes where the interface turns sharply, which smoothing
-//! of the layer removes.
+//! and ridges where these are planar and straight, and so do nodes between materials (`materials`). Method I inverts no
+//! hex of a mesh of convex hexes with planar faces; Method II and 3-refinement may leave inverted hexes where the
+//! interface turns sharply, which smoothing of the layer removes.
 //!
 //! ```
 //! use hexmill::Silent;

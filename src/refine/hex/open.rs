@@ -15,8 +15,8 @@ const OPENING: Stage = Stage("opening");
 const OPTIONS: OptimizeOptions =
     OptimizeOptions { target: 1.0, untangle_sweeps: 200, courses: 1, smooth_sweeps: 4, worst_sweeps: 0 };
 
-/// Moves the layer's nodes, if none of them is on the boundary, and says if that is so. There layers often stand between ridges with no room to
-/// open, and what they leave to the next stage is then worse.
+/// Moves the layer's nodes, if none of them is on the boundary, and says if that is so. At the boundary layers often stand
+/// between ridges with no room to open, and what they leave to the next stage is then worse.
 pub(super) fn open(pillow: &mut Pillow, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
     let monitor = &Opening(monitor);
     monitor.0.checkpoint(OPENING, 0.0)?;

@@ -36,7 +36,8 @@ impl Method {
 }
 
 /// Whether the refined set may grow beyond what is asked for, so that a method can join it to the coarse hexes. Families of
-/// eight and levels that differ by one are what refinement consists of; they are no growth.
+/// eight, and so the whole input refined once by Methods I and II, and levels that differ by one are what refinement
+/// consists of; they are no growth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Growth {

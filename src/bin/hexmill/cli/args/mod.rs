@@ -102,7 +102,8 @@ pub(crate) struct RefineArgs {
     #[arg(long, value_enum, value_name = "METHOD")]
     pub(crate) method: Option<MethodArg>,
 
-    /// Refuse to refine more than is asked for, where the method needs that; hexes only
+    /// Refuse to refine more than is asked for, where the method needs that; hexes only. That Methods I and II refine all
+    /// hexes of the input once is no growth
     #[arg(long)]
     pub(crate) no_growth: bool,
 
