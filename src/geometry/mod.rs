@@ -1,6 +1,7 @@
 //! Points, boxes, distances and overlaps in double precision. Knows no mesh.
 
 mod aabb;
+mod bilinear;
 mod box_index;
 mod centered_box;
 mod centered_cylinder;
@@ -11,12 +12,13 @@ mod gjk;
 mod grove;
 mod hull;
 pub(crate) mod lanes;
-mod nearest_triangle;
+mod nearest;
 mod quad_hull;
 mod solid;
 mod triangulate;
 
 pub use aabb::Aabb;
+pub use bilinear::BilinearQuad;
 pub use box_index::BoxIndex;
 pub use centered_box::CenteredBox;
 pub use centered_cylinder::CenteredCylinder;
@@ -25,7 +27,7 @@ pub use eigen::symmetric_eigen;
 pub use frame::Frame;
 pub use gjk::{Convex, hull_within};
 pub use hull::{Corners, Hull};
-pub use nearest_triangle::{Nearest, NearestTriangle};
+pub use nearest::{Facet, Nearest, NearestFacet, NearestTriangle};
 pub use quad_hull::QuadHull;
 pub use solid::Solid;
 pub use triangulate::{area_vector, triangulate};

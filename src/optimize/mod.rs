@@ -16,6 +16,7 @@
 mod constraint;
 mod energy;
 mod guide;
+mod piece;
 mod problem;
 mod smooth;
 mod star;

@@ -5,17 +5,15 @@
 //! 2. The other edges are curves, one for each pair of patches (a patch with itself at a crease that ends inside it), or
 //!    for each set of patches where materials meet.
 //! 3. A patch whose normals all agree is a plane, a curve whose edges all agree is straight: there nothing is looked
-//!    up, and nodes stay to the last bits. On the others a node goes to the nearest point.
+//!    up, and nodes stay to the last bits. On the others a node goes to the nearest point (`piece`).
 
 use std::collections::BTreeMap;
 
-use crate::geometry::{NearestTriangle, Point, area_vector, triangulate};
+use super::piece::{PatchFacet, Piece, triangles_of};
+use crate::geometry::{NearestTriangle, Point, area_vector};
 use crate::mesh::topology::{Sets, disagrees, edge_ids};
 use crate::mesh::{EdgeId, Edges, Faces, topology::EdgeUses};
 use crate::{Cancelled, Monitor, Silent, parallel};
-
-/// Unit vectors whose difference is below this are one direction: far above rounding, far below what shows.
-const SAME: f64 = 1e-9;
 
 /// Edges between two questions whether to stop.
 const SILENT: usize = 1 << 16;
@@ -66,40 +64,6 @@ pub struct BoundarySurface {
     triangles: Option<(NearestTriangle, Vec<u32>)>,
 }
 
-/// A patch or a curve.
-#[derive(Debug)]
-struct Piece {
-    /// Its triangles; a curve's edges as triangles without area.
-    nearest: NearestTriangle,
-    /// The unit normal of each triangle, or the unit direction of each edge.
-    directions: Vec<Point>,
-    /// If all of these agree, up to their sign.
-    constant: Option<Point>,
-}
-
-impl Piece {
-    fn new(triangles: Vec<[Point; 3]>, direction: impl Fn(&[Point; 3]) -> Point) -> Self {
-        let directions: Vec<Point> = triangles.iter().map(direction).collect();
-        let first = directions.iter().copied().find(|&d| d != Point::ZERO);
-        let agrees = |first: Point| {
-            let same = |d: &Point| d.cross(first).length() <= SAME;
-            directions.iter().all(same).then_some(first)
-        };
-        Self { constant: first.and_then(agrees), nearest: NearestTriangle::new(triangles), directions }
-    }
-
-    /// The normal or direction where `p` is nearest to the piece.
-    fn direction(&self, p: Point) -> Point {
-        self.constant
-            .or_else(|| self.nearest.nearest(p).map(|found| self.directions[found.triangle]))
-            .unwrap_or_default()
-    }
-
-    fn closest(&self, p: Point) -> Point {
-        self.nearest.closest_point(p).unwrap_or(p)
-    }
-}
-
 impl BoundarySurface {
     /// Patches of a surface; edges at which faces meet at more than `ridge_degrees` are curves, as are edges of any
     /// other number of faces than two. Node ids are in range, positions finite.
@@ -148,8 +112,6 @@ impl BoundarySurface {
         }
         let patch_of_face = sets.numbers();
         monitor.proceed()?;
-        let (triangles, patch_of_triangle) = triangles(surface, &patch_of_face);
-        monitor.proceed()?;
         let patch_count = patch_of_face.iter().max().map_or(0, |&p| p as usize + 1);
         let mut patches_of: BTreeMap<FaceKind, Vec<u32>> = BTreeMap::new();
         for (f, &patch) in patch_of_face.iter().enumerate() {
@@ -159,29 +121,34 @@ impl BoundarySurface {
             }
         }
         let mut by_patch = vec![Vec::new(); patch_count];
-        for (triangle, &patch) in triangles.iter().zip(&patch_of_triangle) {
-            by_patch[patch as usize].push(*triangle);
+        let (mut triangles, mut patch_of_triangle) = (Vec::new(), Vec::new());
+        for (f, &patch) in patch_of_face.iter().enumerate() {
+            let corners = corners(f);
+            PatchFacet::of_face(&corners, &mut by_patch[patch as usize]);
+            triangles.extend(triangles_of(&corners));
+            patch_of_triangle.resize(triangles.len(), patch);
         }
-        let mut by_pair: BTreeMap<[u32; 2], Vec<[Point; 3]>> = BTreeMap::new();
-        let mut by_set: BTreeMap<Vec<u32>, Vec<[Point; 3]>> = BTreeMap::new();
+        monitor.proceed()?;
+        let mut by_pair: BTreeMap<[u32; 2], Vec<[Point; 2]>> = BTreeMap::new();
+        let mut by_set: BTreeMap<Vec<u32>, Vec<[Point; 2]>> = BTreeMap::new();
         for e in ridges {
-            let [a, b] = edges.ends[e.index()].map(|n| positions[n.index()]);
+            let ends = edges.ends[e.index()].map(|n| positions[n.index()]);
             let patches = || faces_at(e).map(|f| patch_of_face[f]);
             let of_curve = if uses.at(e).len() > 2 && faces_at(e).any(|f| kind(f).is_inner()) {
                 by_set.entry(ascending(patches())).or_default()
             } else {
                 by_pair.entry(pair(patches())).or_default()
             };
-            of_curve.push([a, b, b]);
+            of_curve.push(ends);
         }
         let curve_between: BTreeMap<[u32; 2], u32> = by_pair.keys().copied().zip(0..).collect();
         let curve_among = by_set.keys().cloned().zip(curve_between.len() as u32..).collect();
         let ends_at = by_pair.keys().map(|pair| pair.to_vec()).chain(by_set.keys().cloned()).collect();
-        let along = |t: &[Point; 3]| (t[1] - t[0]).normalize_or_zero();
         let told = |piece| monitor.proceed().map(|()| piece);
-        let patches = by_patch.into_iter().map(|t| told(Piece::new(t, unit_normal)));
+        let patches = by_patch.into_iter().map(|facets| told(Piece::patch(facets)));
         let patches = patches.collect::<Result<Vec<Piece>, _>>()?;
-        let curves = by_pair.into_values().chain(by_set.into_values()).map(|t| told(Piece::new(t, along)));
+        let curves =
+            by_pair.into_values().chain(by_set.into_values()).map(|edges| told(Piece::curve(&edges)));
         let curves = curves.collect::<Result<Vec<Piece>, _>>()?;
         let triangles = Some((NearestTriangle::new(triangles), patch_of_triangle));
         Ok(Self { patches, curves, patches_of, curve_between, curve_among, ends_at, triangles })
@@ -190,7 +157,7 @@ impl BoundarySurface {
     /// The patch nearest to `p`; `None` if the surface has no faces.
     pub fn patch_at(&self, p: Point) -> Option<u32> {
         let (nearest, patch) = self.triangles.as_ref()?;
-        Some(patch[nearest.nearest(p)?.triangle])
+        Some(patch[nearest.nearest(p)?.facet])
     }
 
     /// The patch nearest to `p` of those of a kind; `None` if there is none.
@@ -277,21 +244,4 @@ fn ascending(patches: impl Iterator<Item = u32>) -> Vec<u32> {
     patches.sort_unstable();
     patches.dedup();
     patches
-}
-
-fn triangles(surface: &impl Faces, patch_of_face: &[u32]) -> (Vec<[Point; 3]>, Vec<u32>) {
-    let (mut all, mut patch_of_triangle) = (Vec::new(), Vec::new());
-    let mut local = Vec::new();
-    for (f, &patch) in patch_of_face.iter().enumerate() {
-        let points: Vec<Point> = surface.nodes_of(f).iter().map(|n| surface.positions()[n.index()]).collect();
-        local.clear();
-        triangulate(&points, &mut local);
-        all.extend(local.iter().map(|t| t.map(|k| points[k as usize])));
-        patch_of_triangle.resize(all.len(), patch);
-    }
-    (all, patch_of_triangle)
-}
-
-fn unit_normal(t: &[Point; 3]) -> Point {
-    (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero()
 }

@@ -225,13 +225,13 @@ impl SolidModel {
     /// The point of the boundary nearest to `p`.
     pub fn nearest(&self, p: Point) -> Foot {
         let found = self.all.nearest(p);
-        self.foot(p, found.triangle, found.point)
+        self.foot(p, found.facet, found.point)
     }
 
     /// The point of a surface nearest to `p`.
     pub fn nearest_on_surface(&self, s: SurfaceId, p: Point) -> Foot {
         let found = self.by_surface[s.index()].nearest(p);
-        self.foot(p, self.surfaces[s.index()].triangles[found.triangle] as usize, found.point)
+        self.foot(p, self.surfaces[s.index()].triangles[found.facet] as usize, found.point)
     }
 
     fn foot(&self, p: Point, triangle: usize, point: Point) -> Foot {
@@ -252,7 +252,7 @@ impl SolidModel {
     /// How far `p` is from the boundary; negative inside.
     pub fn signed_distance(&self, p: Point) -> f64 {
         let found = self.all.nearest(p);
-        self.sides.signed(&self.parts.shell, &self.normals, found.triangle, found.point, p)
+        self.sides.signed(&self.parts.shell, &self.normals, found.facet, found.point, p)
     }
 
     /// Is `p` inside?

@@ -85,7 +85,7 @@ impl CurveSearch {
     }
 
     pub fn nearest(&self, p: Point) -> CurveFoot {
-        let edge = self.tree.nearest(p).expect("a curve has edges").triangle;
+        let edge = self.tree.nearest(p).expect("a curve has edges").facet;
         let [a, b] = [self.points[edge], self.points[edge + 1]];
         let [wa, wb] = segment_weights(p, [a, b]);
         let point = a * wa + b * wb;

@@ -46,7 +46,7 @@ pub(super) fn nesting(shell: &Shell, monitor: &dyn Monitor) -> Result<Nesting, C
         for i in candidates {
             let p = shell.mesh.at(all[i].triangles[0] as usize)[0];
             let nearest = search.nearest(p);
-            let triangle = all[j].triangles[nearest.triangle] as usize;
+            let triangle = all[j].triangles[nearest.facet] as usize;
             if sides.signed(shell, &normals, triangle, nearest.point, p) < 0.0 {
                 all[i].around.push(j);
             }

@@ -1,7 +1,7 @@
 //! What refinement of hexes must reach: worlds through the public pipeline, each with its bounds, and the judge.
 
 use hexmill::Silent;
-use hexmill::geometry::Point;
+use hexmill::geometry::{BilinearQuad, Point};
 use hexmill::io::{AnyMesh, Format, read};
 use hexmill::mesh::quality::{Certainty, hex_quality};
 use hexmill::mesh::topology::hex_boundary;
@@ -9,7 +9,7 @@ use hexmill::mesh::{HexMesh, Volumes, check_hexes};
 use hexmill::refine::hex::{HexOptions, Method, RefinedHexes, refine_hexes};
 use hexmill::sizing::{Region, Shape, Target};
 
-use super::meshes::{Numbers, RADIUS, around, ball, cubes, cylinder, hull, i_beam};
+use super::meshes::{Numbers, RADIUS, around, ball, cubes, cylinder, hull, i_beam, twisted};
 
 /// A mesh, what is to be refined, and what must come of it.
 pub struct World {
@@ -31,6 +31,8 @@ pub enum Boundary {
     Cylinder,
     /// On the sphere of radius [`RADIUS`].
     Sphere,
+    /// On bilinear faces; the volume changes by this share at most.
+    Bilinear(f64),
 }
 
 /// What came of a world.
@@ -84,22 +86,25 @@ impl Boundary {
             assert!((after - before).abs() <= 1e-9 * before, "{name}: the volume {before} became {after}");
             return;
         }
-        let points = |mesh: &HexMesh| -> Vec<[Point; 4]> {
-            hex_boundary(&mesh.hexes)
-                .iter()
-                .map(|(face, _)| face.map(|n| mesh.positions[n.index()]))
-                .collect()
-        };
+        if let Self::Bilinear(share) = self {
+            let [before, after] = [input, refined].map(|mesh| Volumes::of(mesh).expect("hexes").total);
+            let off = off_faces(input, refined);
+            assert!(off <= ON_FACES, "{name}: a node is {off} off");
+            assert!((after - before).abs() <= share * before, "{name}: the volume {before} became {after}");
+            return;
+        }
         let off = |p: Point| match self {
             Self::Sphere => RADIUS - p.length(),
             _ => RADIUS - p.truncate().length(),
         };
         let curved = |face: &[Point; 4]| face.iter().all(|&p| off(p).abs() < 1e-9);
-        let chord =
-            points(input).into_iter().filter(curved).map(|[a, b, c, d]| a.distance(c).max(b.distance(d)));
+        let chord = boundary_faces(input)
+            .into_iter()
+            .filter(curved)
+            .map(|[a, b, c, d]| a.distance(c).max(b.distance(d)));
         let chord = chord.fold(0.0, f64::max);
         let sagitta = RADIUS - (RADIUS * RADIUS - chord * chord / 4.0).sqrt();
-        for p in points(refined).into_iter().flatten() {
+        for p in boundary_faces(refined).into_iter().flatten() {
             let on_cap = self == Self::Cylinder && (p.z.abs() < 1e-9 || (p.z - 3.0).abs() < 1e-9);
             let off = off(p);
             assert!(
@@ -108,6 +113,24 @@ impl Boundary {
             );
         }
     }
+}
+
+/// How far boundary nodes may be off bilinear faces: rounding.
+const ON_FACES: f64 = 1e-12;
+
+fn boundary_faces(mesh: &HexMesh) -> Vec<[Point; 4]> {
+    hex_boundary(&mesh.hexes).iter().map(|(face, _)| face.map(|n| mesh.positions[n.index()])).collect()
+}
+
+/// How far the boundary nodes of a mesh are from another mesh's boundary faces, at most.
+fn off_faces(input: &HexMesh, refined: &HexMesh) -> f64 {
+    let faces: Vec<BilinearQuad> =
+        boundary_faces(input).into_iter().map(|corners| BilinearQuad { corners }).collect();
+    let off = |p: Point| {
+        let distances = faces.iter().map(|face| face.point(face.closest(p)).distance(p));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    boundary_faces(refined).into_iter().flatten().map(off).fold(0.0, f64::max)
 }
 
 /// Which of `n` cubes an axis are refined, and with two levels which of their octants again. The share grows with the
@@ -255,5 +278,29 @@ pub fn named(fine: u8) -> Vec<World> {
         ),
         planar("submarine in a box of water", water, vec![governing], [0.64, 0.46]),
         planar("bunny's points in a box", box_of_bunny, vec![points], [0.645, 0.445]),
+    ]
+}
+
+/// Worlds with warped boundary faces, and the least scaled Jacobian that will do for Method III. Their volume changes by
+/// what the chords of finer faces leave out.
+pub fn warped() -> Vec<(World, f64)> {
+    let world = |name: &str, input, regions, volume, [one, two, three]: [f64; 3]| {
+        let (boundary, least) = (Boundary::Bilinear(volume), [one, two]);
+        (World { name: name.into(), input, regions, boundary, least }, three)
+    };
+    let turned = || twisted([3, 3, 3], 0.18);
+    let at_side = |level| vec![block([1.1, -0.1, 1.4], [1.4, 0.1, 1.6], level)];
+    let edge = vec![block([0.9, 0.9, 0.2], [1.9, 1.9, 0.8], 2)];
+    let column = vec![block([-2.0, 0.3, 1.2], [2.0, 2.0, 3.8], 2)];
+    let on_ball = Region {
+        shape: Shape::Sphere { center: Point::new(2.0, 0.3, 0.3), radius: 0.6 },
+        target: Target::Level(2),
+    };
+    vec![
+        world("twisted box, at a side", turned(), at_side(2), 2e-4, [0.68, 0.46, 0.25]),
+        world("twisted box, at a side, thrice", turned(), at_side(3), 2e-4, [0.69, 0.455, 0.355]),
+        world("twisted box, at an edge", turned(), edge, 3e-4, [0.69, 0.465, 0.375]),
+        world("twisted column", twisted([2, 2, 6], 0.3), column, 5e-4, [0.67, 0.49, 0.36]),
+        world("ball of warped faces", ball(), vec![on_ball], 1.5e-3, [0.65, 0.435, 0.365]),
     ]
 }

@@ -5,7 +5,7 @@ use hexmill::refine::hex::{Added, Method};
 use rayon::prelude::*;
 
 use super::acceptance::{
-    Boundary, MOST_GROWTH, World, block, judged, named, octants, random_on_beam, random_set,
+    Boundary, MOST_GROWTH, World, block, judged, named, octants, random_on_beam, random_set, warped,
 };
 use super::meshes::i_beam;
 
@@ -138,4 +138,15 @@ fn named_worlds() {
     let worlds = named(1);
     let [one, two] = BOTH.map(|method| accept(method, &worlds).0);
     assert_eq!((one.conflicts, one.repairs, two.closure.method), (0, 0, 0));
+}
+
+#[test]
+fn warped_worlds() {
+    for (world, least_in_thirds) in warped() {
+        let bounds = [world.least[0], world.least[1], least_in_thirds];
+        for (method, least) in [Method::One, Method::Two, Method::Three].into_iter().zip(bounds) {
+            let found = judged(&world, method);
+            assert!(found.worst >= least, "{}, {method:?}: {}", world.name, found.worst);
+        }
+    }
 }

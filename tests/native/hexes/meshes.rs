@@ -39,6 +39,20 @@ pub fn i_beam() -> HexMesh {
     cells([5, 5, 8], |[x, y, _]| y == 0 || y == 4 || x == 2, |p| p)
 }
 
+/// A box of unit cells about z, each layer turned by `angle` against the one below: its sides are warped.
+pub fn twisted(size: [usize; 3], angle: f64) -> HexMesh {
+    let middle = Point::new(size[0] as f64 / 2.0, size[1] as f64 / 2.0, 0.0);
+    cells(
+        size,
+        |_| true,
+        |p| {
+            let (sin, cos) = (libm::sin(angle * p.z), libm::cos(angle * p.z));
+            let p = p - middle;
+            Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y, p.z)
+        },
+    )
+}
+
 /// An o-grid: the hexes of `core` and `layers` of hexes out from each of its boundary faces for which `grows` holds,
 /// whose nodes go to where `outside` says.
 fn o_grid(

@@ -3,29 +3,52 @@
 use super::{Aabb, Point, closest_on_triangle};
 use crate::{Cancelled, Monitor, Silent};
 
-/// A leaf of the tree has at most this many triangles.
+/// A leaf of the tree has at most this many facets.
 const LEAF: usize = 4;
 
-/// The monitor is asked before more triangles than this are split.
+/// The monitor is asked before more facets than this are split.
 const MANY: usize = 1 << 14;
 
-/// More levels than a tree of 2^32 triangles has, which are split in halves.
+/// More levels than a tree of 2^32 facets has, which are split in halves.
 const DEPTH: usize = 48;
 
-/// Finds, among many triangles, the one that is nearest to a point: a tree of boxes, split in halves along their longest
+/// A piece of a surface.
+pub trait Facet {
+    /// Points whose convex hull it is in.
+    fn corners(&self) -> &[Point];
+
+    /// Its point that is closest to `p`.
+    fn closest(&self, p: Point) -> Point;
+}
+
+/// A triangle.
+impl Facet for [Point; 3] {
+    fn corners(&self) -> &[Point] {
+        self
+    }
+
+    fn closest(&self, p: Point) -> Point {
+        closest_on_triangle(p, *self)
+    }
+}
+
+/// Finds, among many facets, the one that is nearest to a point: a tree of boxes, split in halves along their longest
 /// side. General R-trees keep a heap for each question, and take several times as long; optimisation asks millions.
 #[derive(Debug)]
-pub struct NearestTriangle {
+pub struct NearestFacet<F> {
     /// The root first, each branch before its halves.
     nodes: Vec<Node>,
     /// In the order of the tree.
-    triangles: Vec<Triangle>,
+    facets: Vec<Numbered<F>>,
 }
 
-/// A triangle by its corners, and its place in the order in which the triangles were given.
+/// Finds the nearest of many triangles.
+pub type NearestTriangle = NearestFacet<[Point; 3]>;
+
+/// A facet, and its place in the order in which they were given.
 #[derive(Clone, Debug)]
-struct Triangle {
-    corners: [Point; 3],
+struct Numbered<F> {
+    facet: F,
     index: u32,
 }
 
@@ -39,26 +62,26 @@ struct Node {
 enum Below {
     /// The left half is the next node; where the right one is.
     Right(u32),
-    /// The first triangle, and how many there are.
+    /// The first facet, and how many there are.
     Leaf(u32, u32),
 }
 
-/// The triangle that is nearest to a point.
+/// The facet that is nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// Its place in the order in which the triangles were given.
-    pub triangle: usize,
+    /// Its place in the order in which the facets were given.
+    pub facet: usize,
     /// Its point that is closest.
     pub point: Point,
 }
 
-impl NearestTriangle {
-    /// An index of triangles with finite corners.
+impl<F: Facet> NearestFacet<F> {
+    /// An index of facets with finite corners.
     ///
     /// # Panics
-    /// If there are more than 2^32 triangles.
-    pub fn new(triangles: impl IntoIterator<Item = [Point; 3]>) -> Self {
-        Self::within(triangles, &Silent).expect("nobody stops it")
+    /// If there are more than 2^32 facets.
+    pub fn new(facets: impl IntoIterator<Item = F>) -> Self {
+        Self::within(facets, &Silent).expect("nobody stops it")
     }
 
     /// As [`new`](Self::new), told by a monitor when to stop.
@@ -68,53 +91,59 @@ impl NearestTriangle {
     ///
     /// # Panics
     /// As [`new`](Self::new).
-    pub fn within(
-        triangles: impl IntoIterator<Item = [Point; 3]>,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, Cancelled> {
-        let numbered = triangles.into_iter().enumerate().map(|(index, corners)| Triangle {
-            corners,
-            index: u32::try_from(index).expect("more than 2^32 triangles"),
+    pub fn within(facets: impl IntoIterator<Item = F>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let numbered = facets.into_iter().enumerate().map(|(index, facet)| Numbered {
+            facet,
+            index: u32::try_from(index).expect("more than 2^32 facets"),
         });
-        let mut all = Self { nodes: Vec::new(), triangles: numbered.collect() };
-        let mut triangles = std::mem::take(&mut all.triangles);
-        if !triangles.is_empty() {
-            all.branch(&mut triangles, 0, monitor)?;
+        let mut all = Self { nodes: Vec::new(), facets: numbered.collect() };
+        let mut facets = std::mem::take(&mut all.facets);
+        if !facets.is_empty() {
+            all.branch(&mut facets, 0, monitor)?;
         }
-        Ok(Self { triangles, ..all })
+        Ok(Self { facets, ..all })
     }
 
-    /// Adds the nodes of these triangles, which are those from `first` on.
+    /// Adds the nodes of these facets, which are those from `first` on.
     fn branch(
         &mut self,
-        triangles: &mut [Triangle],
+        facets: &mut [Numbered<F>],
         first: usize,
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
-        if triangles.len() > MANY {
+        if facets.len() > MANY {
             monitor.proceed()?;
         }
-        let bounds = Aabb::around(triangles.iter().flat_map(|t| &t.corners));
+        let bounds = Aabb::around(facets.iter().flat_map(|f| f.facet.corners()));
         let place = self.nodes.len();
-        self.nodes.push(Node { bounds, below: Below::Leaf(first as u32, triangles.len() as u32) });
-        if triangles.len() <= LEAF {
+        self.nodes.push(Node { bounds, below: Below::Leaf(first as u32, facets.len() as u32) });
+        if facets.len() <= LEAF {
             return Ok(());
         }
         let size = bounds.size();
         let axis = (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest });
-        let middle = |t: &Triangle| t.corners.iter().map(|p| p[axis]).sum::<f64>();
-        let half = triangles.len() / 2;
-        triangles
+        let middle = |f: &Numbered<F>| f.facet.corners().iter().map(|p| p[axis]).sum::<f64>();
+        let half = facets.len() / 2;
+        facets
             .select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.index.cmp(&b.index)));
-        let (left, right) = triangles.split_at_mut(half);
+        let (left, right) = facets.split_at_mut(half);
         self.branch(left, first, monitor)?;
         self.nodes[place].below = Below::Right(self.nodes.len() as u32);
         self.branch(right, first + half, monitor)
     }
 
-    /// The triangle that is nearest to `p`, the first of those that are equally near; `None` if there are no triangles.
+    /// The facet that is nearest to `p`, the first of those that are equally near; `None` if there are no facets.
     pub fn nearest(&self, p: Point) -> Option<Nearest> {
-        let mut best: Option<(f64, u32, Point)> = None;
+        self.found(p).map(|(numbered, point)| Nearest { facet: numbered.index as usize, point })
+    }
+
+    /// The same, as the facet itself.
+    pub fn nearest_facet(&self, p: Point) -> Option<&F> {
+        self.found(p).map(|(numbered, _)| &numbered.facet)
+    }
+
+    fn found(&self, p: Point) -> Option<(&Numbered<F>, Point)> {
+        let mut best: Option<(f64, &Numbered<F>, Point)> = None;
         let mut waiting = [(0.0, 0); DEPTH];
         let mut count = usize::from(!self.nodes.is_empty());
         while count > 0 {
@@ -135,21 +164,21 @@ impl NearestTriangle {
                 at = halves[0].1;
             }
             let Below::Leaf(first, len) = self.nodes[at as usize].below else { continue };
-            for triangle in &self.triangles[first as usize..(first + len) as usize] {
-                let point = closest_on_triangle(p, triangle.corners);
+            for numbered in &self.facets[first as usize..(first + len) as usize] {
+                let point = numbered.facet.closest(p);
                 let distance = point.distance_squared(p);
-                let is_nearer = |(nearest, index, _): (f64, u32, Point)| {
-                    distance < nearest || distance == nearest && triangle.index < index
+                let is_nearer = |(nearest, other, _): (f64, &Numbered<F>, Point)| {
+                    distance < nearest || distance == nearest && numbered.index < other.index
                 };
                 if best.is_none_or(is_nearer) {
-                    best = Some((distance, triangle.index, point));
+                    best = Some((distance, numbered, point));
                 }
             }
         }
-        best.map(|(_, index, point)| Nearest { triangle: index as usize, point })
+        best.map(|(_, numbered, point)| (numbered, point))
     }
 
-    /// The point of a triangle that is closest to `p`; `None` if there are no triangles.
+    /// The point of a facet that is closest to `p`; `None` if there are no facets.
     pub fn closest_point(&self, p: Point) -> Option<Point> {
         self.nearest(p).map(|nearest| nearest.point)
     }
@@ -186,7 +215,7 @@ mod tests {
                 .fold(f64::INFINITY, f64::min);
             let nearest = index.nearest(p).unwrap();
             assert_eq!(nearest.point.distance(p), walked, "{p}");
-            assert_eq!(closest_on_triangle(p, triangles[nearest.triangle]), nearest.point, "{p}");
+            assert_eq!(closest_on_triangle(p, triangles[nearest.facet]), nearest.point, "{p}");
         }
     }
 
@@ -196,8 +225,8 @@ mod tests {
         let index = NearestTriangle::new(twice.iter().copied());
         for t in &twice[..50] {
             let found = index.nearest((t[0] + t[1] + t[2]) / 3.0).unwrap();
-            assert_eq!(twice[found.triangle], *t);
-            assert!(found.triangle < 50);
+            assert_eq!(twice[found.facet], *t);
+            assert!(found.facet < 50);
         }
     }
 
