@@ -1,8 +1,8 @@
 //! Refines the worlds that refinement of hexes is held to, in full, and prints what came of them.
 //!
 //! `cargo run --release --example acceptance` runs 100 random sets of one and of two levels in 8 x 8 x 8 cells, all 254
-//! sets of octants around a node, 40 sets on an I-beam, and the named worlds, with Methods I and II; it fails where a
-//! bound does not hold. `-- silence` tells how long a large refinement goes without asking whether to stop; `-- sets`, `-- octants`, `-- beam` or `-- named` run some of it; `-- write FOLDER` writes the named worlds as VTU files.
+//! sets of octants around a node, 40 sets on an I-beam, and the named worlds, with Methods I and II, and worlds with warped
+//! faces with 3-refinement too; it fails where a bound does not hold. `-- silence` tells how long a large refinement goes without asking whether to stop; `-- sets`, `-- octants`, `-- beam`, `-- named` or `-- warped` run some of it; `-- write FOLDER` writes the named worlds as VTU files.
 
 #[path = "../tests/native/hexes/acceptance.rs"]
 mod acceptance;
@@ -14,7 +14,7 @@ mod shell;
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
-use acceptance::{Judged, MOST_GROWTH, World, judged, named, octants, random_on_beam, random_set};
+use acceptance::{Judged, MOST_GROWTH, World, judged, named, octants, random_on_beam, random_set, warped};
 use hexmill::io::{Document, Format, write};
 use hexmill::refine::hex::{Method, refine_hexes};
 use hexmill::{Monitor, Stage};
@@ -60,6 +60,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     let name = format!("{} {method:?}.vtu", world.name).replace([' ', ',', '\''], "-");
                     std::fs::write(std::path::Path::new(folder).join(name), bytes)?;
                 }
+            }
+        }
+    }
+    if runs("warped") {
+        for (world, least_in_thirds) in warped() {
+            let bounds = [world.least[0], world.least[1], least_in_thirds];
+            for (method, least) in [Method::One, Method::Two, Method::Three].into_iter().zip(bounds) {
+                let Judged { refined, worst, mean } = judged(&world, method);
+                let fails = if worst < least { "  FAILS" } else { "" };
+                let hexes = refined.mesh.hexes.len();
+                println!(
+                    "{}, {method:?}: {hexes} hexes, worst {worst:.3}, mean {mean:.3}{fails}",
+                    world.name
+                );
+                failed += usize::from(worst < least);
             }
         }
     }

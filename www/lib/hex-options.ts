@@ -19,8 +19,9 @@ export const MOST_HEXES = 2_750_000;
 export type Method = 'one' | 'two' | 'three' | 'auto';
 
 /**
- * Whether the refined set may grow beyond what is asked for, so that a method can join it to the coarse hexes. Families of
- * eight, and so the whole input refined once by Methods I and II, and levels that differ by one are no growth.
+ * Whether the refined set may grow beyond what is asked for, so that a method can join it to the coarse hexes. Growth is
+ * every hex that is refined although nothing asks for it, whichever the method: also those of the input that Methods I and II
+ * refine once, unless `levels` is at least 1. Only the siblings of refined hexes and levels that differ by one are no growth.
  *
  * - `allow`: it grows to what the method needs, and `added` tells how far.
  * - `refuse`: where it would have to grow nothing is done, and the error tells where and how far.

@@ -35,9 +35,11 @@ impl Method {
     }
 }
 
-/// Whether the refined set may grow beyond what is asked for, so that a method can join it to the coarse hexes. Families of
-/// eight, and so the whole input refined once by Methods I and II, and levels that differ by one are what refinement
-/// consists of; they are no growth.
+/// Whether the refined set may grow beyond what is asked for, so that a method can join it to the coarse hexes.
+///
+/// Growth is every hex that is refined although nothing asks for it ([`Added::growth`]), whichever the method: also those of
+/// the input that Methods I and II refine once, unless level 1 is asked for everywhere. Only the siblings of refined
+/// hexes and grading, levels that differ by one, are no growth: they are what refinement consists of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Growth {
@@ -109,6 +111,13 @@ pub struct Added {
     pub conflicts: usize,
     /// At transition hexes that could not be untangled.
     pub repairs: usize,
+}
+
+impl Added {
+    /// How many of them are growth: all but the siblings of refined elements, and grading.
+    pub fn growth(&self) -> usize {
+        self.base + self.closure.method + self.conflicts + self.repairs
+    }
 }
 
 /// A conforming hex mesh and where its hexes came from.
@@ -196,7 +205,7 @@ pub enum HexRefineError {
     /// More would have to be refined than is asked for, and the options refuse that.
     #[error(
         "elements of level {level} that nothing asks for ({elements}) would be refined {reason}, the first around {}, {}, \
-         {}; allow that growth, ask for a larger region there, or use another method", .near.x, .near.y, .near.z
+         {}; allow that growth, ask for it (level 1 everywhere, or a larger region there), or use another method", .near.x, .near.y, .near.z
     )]
     GrowthRefused {
         /// How many.

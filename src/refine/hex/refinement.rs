@@ -1,7 +1,7 @@
 //! What is to be refined, decided level by level, by the options and by a caller's size function.
 
 use super::input::{coincident_nodes, oriented};
-use super::options::{HexOptions, HexRefineError, Method, RefinedHexes, check_size, validate};
+use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size, validate};
 use super::plan::{Decided, HexPlan};
 use super::trees::Trees;
 use crate::geometry::Point;
@@ -93,8 +93,8 @@ impl<'a> HexRefinement<'a> {
     /// With Methods I and II, told by name, all hexes of the input are refined once if one of them is.
     ///
     /// # Errors
-    /// If there is not one target above 0 for each candidate, the monitor stops it, or the mesh would become too
-    /// large.
+    /// If there is not one target above 0 for each candidate, the monitor stops it, the mesh would become too large, or
+    /// all hexes would be refined and the options refuse growth.
     pub fn advance(
         &mut self,
         targets: Option<&[f64]>,
@@ -115,6 +115,7 @@ impl<'a> HexRefinement<'a> {
         }
         if number == 0 && matches!(options.method, Method::One | Method::Two) {
             self.base = count - marked.len();
+            self.may_refine_all(&marked)?;
             marked = (0..count as u32).collect();
         }
         let is_in_thirds = options.method == Method::Three;
@@ -129,6 +130,22 @@ impl<'a> HexRefinement<'a> {
         trees.split(number.into(), &marked, monitor)?;
         self.trees = Some(trees);
         Ok(true)
+    }
+
+    /// Refuses to refine all hexes of the input where those `marked` alone are asked for, if the options say so.
+    fn may_refine_all(&self, marked: &[u32]) -> Result<(), HexRefineError> {
+        if self.base == 0 || self.options.growth == Growth::Allow {
+            return Ok(());
+        }
+        // The marked ones ascend: up to the first that is not, each has its place.
+        let first = marked.iter().zip(0..).take_while(|&(&marked, place)| marked == place).count();
+        let corners = self.input.hexes[first].map(|n| self.input.positions[n.index()]);
+        Err(HexRefineError::GrowthRefused {
+            elements: self.base,
+            level: 0,
+            reason: "so that all are in families of eight",
+            near: corners.iter().sum::<Point>() / 8.0,
+        })
     }
 
     /// Refines what the rules of conforming refinement ask for, besides; says what will be made.

@@ -80,6 +80,10 @@ fn growth_is_refused_if_that_is_wanted() {
     refined(&folder, &touching);
     let run = refine(&folder, &[&touching[..], &["--no-growth"]].concat());
     assert_eq!(run.code, Some(1));
+    let told = "would be refined so that all are in families of eight, the first around 0.5, 0.5, 0.5; ";
+    assert!(run.stderr.contains(told), "{}", run.stderr);
+    let run = refine(&folder, &[&touching[..], &["--no-growth", "--levels", "1"]].concat());
+    assert_eq!(run.code, Some(1));
     assert!(run.stderr.contains("error[growth-refused]: grid.vtu: "), "{}", run.stderr);
     let told = "would be refined for the method's templates, the first around";
     assert!(run.stderr.contains(told), "{}", run.stderr);

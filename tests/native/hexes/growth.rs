@@ -1,6 +1,7 @@
 //! What is refined beyond what is asked for: told, and refused where that is wanted.
 
 use hexmill::Silent;
+use hexmill::geometry::Point;
 use hexmill::mesh::{check_hexes, mesh_hash};
 use hexmill::refine::hex::{Growth, HexOptions, HexPlan, HexRefineError, Method, refine_hexes};
 use hexmill::sizing::Region;
@@ -45,7 +46,8 @@ fn growth_is_refused_with_the_place_if_that_is_wanted() {
     let grown =
         refine_hexes(&input, &options(Method::One, Growth::Allow, &touching()), &Silent).expect("a mesh");
     assert!(grown.added.closure.method > 0);
-    let error = refine_hexes(&input, &options(Method::One, Growth::Refuse, &touching()), &Silent);
+    let refused = HexOptions { levels: Some(1), ..options(Method::One, Growth::Refuse, &touching()) };
+    let error = refine_hexes(&input, &refused, &Silent);
     let Err(HexRefineError::GrowthRefused { elements, level, near, .. }) = &error else {
         panic!("{error:?}")
     };
@@ -56,10 +58,48 @@ fn growth_is_refused_with_the_place_if_that_is_wanted() {
         "{near}"
     );
     assert_eq!(error.as_ref().unwrap_err().code(), "growth-refused");
-    // What cannot be grouped needs the rest of the input.
+}
+
+/// Hexes of the input that are refined once for families count alike: where all are, and where what cannot be grouped needs
+/// the rest.
+#[test]
+fn the_rest_of_the_input_is_growth_by_every_method() {
     let odd = [block([1.0; 3], [4.0; 3], 1)];
-    let error = refine_hexes(&cubes(5), &options(Method::Auto, Growth::Refuse, &odd), &Silent);
-    assert!(matches!(error, Err(HexRefineError::GrowthRefused { elements: 98, level: 0, .. })), "{error:?}");
+    for method in [Method::One, Method::Two, Method::Auto] {
+        let error = refine_hexes(&cubes(5), &options(method, Growth::Refuse, &odd), &Silent);
+        let Err(HexRefineError::GrowthRefused { elements: 98, level: 0, near, .. }) = error else {
+            panic!("{method:?}: {error:?}")
+        };
+        assert_eq!(near, Point::splat(0.5), "{method:?}");
+        let asked = HexOptions { levels: Some(1), ..options(method, Growth::Refuse, &odd) };
+        assert_eq!(refine_hexes(&cubes(5), &asked, &Silent).expect("a mesh").added.growth(), 0, "{method:?}");
+    }
+    assert!(refine_hexes(&cubes(5), &options(Method::Three, Growth::Refuse, &odd), &Silent).is_ok());
+}
+
+/// What is told as growth is what is refused, by every method.
+#[test]
+fn what_is_told_is_what_is_refused() {
+    let input = cubes(4);
+    let sets = [
+        touching(),
+        vec![block([1.0; 3], [3.0; 3], 1)],
+        vec![block([1.0; 3], [3.0; 3], 3)],
+        vec![block([0.0; 3], [1.0; 3], 2), block([1.0; 3], [2.0; 3], 1)],
+    ];
+    for (regions, method) in sets.iter().flat_map(|regions| METHODS.map(|method| (regions, method))) {
+        for levels in [None, Some(1)] {
+            let [allowed, refused] = [Growth::Allow, Growth::Refuse].map(|growth| {
+                refine_hexes(&input, &HexOptions { levels, ..options(method, growth, regions) }, &Silent)
+            });
+            let growth = allowed.expect("a mesh").added.growth();
+            match refused {
+                Ok(refined) => assert_eq!((growth, refined.added.growth()), (0, 0), "{method:?} {regions:?}"),
+                Err(HexRefineError::GrowthRefused { .. }) => assert!(growth > 0, "{method:?} {regions:?}"),
+                Err(error) => panic!("{error}"),
+            }
+        }
+    }
 }
 
 /// Along an inner ridge of the beam neither side can leave everywhere: that is seen when the pillow is made.
@@ -70,7 +110,8 @@ fn growth_during_the_work_is_refused_too() {
     let grown =
         refine_hexes(&i_beam(), &options(Method::Two, Growth::Allow, &regions), &Silent).expect("a mesh");
     assert!(grown.added.conflicts > 0);
-    let error = refine_hexes(&i_beam(), &options(Method::Two, Growth::Refuse, &regions), &Silent);
+    let refused = HexOptions { levels: Some(1), ..options(Method::Two, Growth::Refuse, &regions) };
+    let error = refine_hexes(&i_beam(), &refused, &Silent);
     assert!(matches!(error, Err(HexRefineError::GrowthRefused { level: 1, .. })), "{error:?}");
 }
 
@@ -86,7 +127,9 @@ fn refusing_growth_changes_no_mesh() {
         (Method::Auto, vec![block([1.0; 3], [3.0; 3], 2)]),
     ] {
         let [allowed, refused] = [Growth::Allow, Growth::Refuse].map(|growth| {
-            refine_hexes(&input, &options(method, growth, &regions), &Silent).expect("nothing has to grow")
+            let levels = matches!(method, Method::One | Method::Two).then_some(1);
+            let options = HexOptions { levels, ..options(method, growth, &regions) };
+            refine_hexes(&input, &options, &Silent).expect("nothing has to grow")
         });
         let hash = |mesh: &hexmill::mesh::HexMesh| mesh_hash(&mesh.positions, &mesh.hexes);
         assert_eq!(hash(&allowed.mesh), hash(&refused.mesh), "{method:?}");

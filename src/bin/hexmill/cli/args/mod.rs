@@ -102,8 +102,8 @@ pub(crate) struct RefineArgs {
     #[arg(long, value_enum, value_name = "METHOD")]
     pub(crate) method: Option<MethodArg>,
 
-    /// Refuse to refine more than is asked for, where the method needs that; hexes only. That Methods I and II refine all
-    /// hexes of the input once is no growth
+    /// Refuse to refine more than is asked for, where the method needs that; hexes only. Siblings of refined hexes and
+    /// levels that differ by one are no growth; that methods one and two refine all hexes once is, without --levels
     #[arg(long)]
     pub(crate) no_growth: bool,
 
