@@ -62,6 +62,8 @@ pub struct Document {
     /// The groups in a file of hexes that were left out, all or in part: of such faces, of edges and of nodes. One without
     /// a name is told by its number.
     pub dropped_groups: Vec<String>,
+    /// The arrays of a VTU or legacy VTK file, on cells or nodes, that are not read: they are no tags, levels or parents.
+    pub dropped_arrays: Vec<String>,
 }
 
 impl Document {
@@ -80,6 +82,7 @@ impl Document {
             second_order: None,
             dropped_faces: 0,
             dropped_groups: Vec::new(),
+            dropped_arrays: Vec::new(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! What VTK's two file formats share: cells as connectivity, ends and types, and the cell data that
 //! carry levels, parents and tags.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::cell_collector::{CellAttributes, CellCollector};
 use super::cell_kind::CellKind;
@@ -88,23 +88,55 @@ pub(super) fn is_wanted(name: &str) -> bool {
     name == LEVEL || name == PARENT || TAG_ARRAYS.contains(&name)
 }
 
-/// The attributes of the cells of the given types from the arrays that [`is_wanted`]. Arrays of the wrong length or with
-/// numbers that are not whole are another program's, and left alone.
-pub(super) fn cell_attributes(
+/// The cell data of a file.
+#[derive(Default)]
+pub(super) struct CellData {
+    /// The arrays that [`is_wanted`].
+    pub wanted: HashMap<String, Column>,
+    /// The names of all arrays, of nodes too, each once, in the file's order.
+    names: Vec<String>,
+    known: HashSet<String>,
+}
+
+impl CellData {
+    /// Notes that the file has an array of this name.
+    pub fn note(&mut self, name: &str) {
+        if self.known.insert(name.to_owned()) {
+            self.names.push(name.to_owned());
+        }
+    }
+
+    /// The attributes of the cells of the given types, and the names of the arrays that say nothing of them.
+    pub fn attributes(self, types: &[i64], named: &Names) -> (CellAttributes, Vec<String>) {
+        let Self { wanted, mut names, .. } = self;
+        let (attributes, read) = cell_attributes(wanted, types, named);
+        names.retain(|name| !read.contains(&name.as_str()));
+        (attributes, names)
+    }
+}
+
+/// The attributes of the cells of the given types from the arrays that [`is_wanted`], and the names of those that were
+/// used. Arrays of the wrong length or with numbers that are not whole are another program's, and left alone.
+fn cell_attributes(
     mut arrays: HashMap<String, Column>,
     types: &[i64],
     named: &Names,
-) -> CellAttributes {
+) -> (CellAttributes, Vec<&'static str>) {
     let is_hex = |number: &i64| matches!(CellKind::from_vtk(*number), Ok(CellKind::Hex | CellKind::Voxel));
     let has_hexes = types.iter().any(is_hex);
-    let mut whole = |name: &str| {
-        arrays.remove(name).filter(|column| column.len() == types.len()).and_then(Column::into_integers)
+    let mut read = Vec::new();
+    let mut whole = |name: &'static str| {
+        let column = arrays.remove(name).filter(|column| column.len() == types.len());
+        let numbers = column.and_then(Column::into_integers);
+        read.extend(numbers.is_some().then_some(name));
+        numbers
     };
-    CellAttributes {
+    let attributes = CellAttributes {
         level: whole(LEVEL),
         parent: whole(PARENT),
         tags: TAG_ARRAYS.iter().find_map(|name| whole(name)).map(|numbers| {
             CellTags::from_numbers(&numbers, named, |cell| has_hexes && !is_hex(&types[cell]))
         }),
-    }
+    };
+    (attributes, read)
 }

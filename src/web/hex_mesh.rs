@@ -32,6 +32,8 @@ pub struct HexMesh {
     pub(super) turned: usize,
     /// Faces in the file that are no faces of the hexes.
     dropped_faces: usize,
+    /// Arrays in the file that are not read.
+    dropped_arrays: Vec<String>,
 }
 
 /// What JavaScript shows of a hex mesh.
@@ -46,6 +48,7 @@ struct Info {
     turned: usize,
     grouped_faces: usize,
     dropped_faces: usize,
+    dropped_arrays: Vec<String>,
     groups: Vec<Group>,
     /// Null for a mesh without hexes.
     quality: Option<HexQualityReport>,
@@ -88,12 +91,13 @@ impl HexMesh {
     /// # Errors
     /// What the format's reader refuses, unknown formats, files of surfaces, and more hexes than memory holds.
     pub fn read(bytes: &[u8], format: Option<String>) -> Result<Self, Failure> {
-        let Document { mesh: AnyMesh::Hexes(mesh), tags, dropped_faces, .. } = file::read(bytes, format)?
+        let document = file::read(bytes, format)?;
+        let Document { mesh: AnyMesh::Hexes(mesh), tags, dropped_faces, dropped_arrays, .. } = document
         else {
             let message = "the file holds a surface; give a mesh of hexahedra, or make a grid around it";
             return Err(Failure::input("hexes-expected", &message));
         };
-        Ok(Self { dropped_faces, ..Self::new(Mesh { tags, ..mesh })? })
+        Ok(Self { dropped_faces, dropped_arrays, ..Self::new(Mesh { tags, ..mesh })? })
     }
 
     /// Hexes given as arrays: x, y, z of each node, and the eight nodes of each hex in the order of VTK_HEXAHEDRON.
@@ -121,7 +125,7 @@ impl HexMesh {
             }
             other => other.into(),
         })?;
-        Ok(Self { mesh: Arc::new(mesh), turned: 0, dropped_faces: 0 })
+        Ok(Self { mesh: Arc::new(mesh), turned: 0, dropped_faces: 0, dropped_arrays: Vec::new() })
     }
 
     /// What is known of the mesh: an object with the fields of `HexInfo` in `www/lib/results.ts`.
@@ -152,12 +156,12 @@ impl HexMesh {
             return Err(limit.exceeded(hexes as f64, "give a smaller mesh"));
         }
         let turned = on_pool(|| orient_hexes(&mut mesh)).unwrap_or(0);
-        Ok(Self { mesh: Arc::new(mesh), turned, dropped_faces: 0 })
+        Ok(Self { mesh: Arc::new(mesh), turned, dropped_faces: 0, dropped_arrays: Vec::new() })
     }
 }
 
 impl Info {
-    fn of(HexMesh { mesh, turned, dropped_faces }: &HexMesh) -> Self {
+    fn of(HexMesh { mesh, turned, dropped_faces, dropped_arrays }: &HexMesh) -> Self {
         let topology = HexTopology::of(mesh);
         let defects = check_hexes_on(mesh, &topology, &Silent).expect("nobody stops it");
         Self {
@@ -167,6 +171,7 @@ impl Info {
             turned: *turned,
             grouped_faces: mesh.groups.sides().len(),
             dropped_faces: *dropped_faces,
+            dropped_arrays: dropped_arrays.clone(),
             groups: mesh.groups.tags().sets.iter().map(Group::from).collect(),
             quality: hex_quality(mesh).report(),
             defects: summary(&defects).iter().map(ToString::to_string).collect(),

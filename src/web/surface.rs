@@ -19,6 +19,8 @@ use crate::mesh::{Edges, MeshHash, NodeId, PolygonMesh, polygon_hash};
 #[wasm_bindgen]
 pub struct Surface {
     pub(super) mesh: Arc<PolygonMesh>,
+    /// Arrays in the file that are not read.
+    dropped_arrays: Vec<String>,
 }
 
 /// What JavaScript shows of a surface.
@@ -34,6 +36,7 @@ struct Info {
     polygons: usize,
     #[serde(flatten)]
     extent: Extent,
+    dropped_arrays: Vec<String>,
     /// One line for each kind of defect.
     defects: Vec<String>,
 }
@@ -45,11 +48,13 @@ impl Surface {
     /// # Errors
     /// What the format's reader refuses, unknown formats, and files of hexahedra.
     pub fn read(bytes: &[u8], format: Option<String>) -> Result<Self, Failure> {
-        let mesh = file::read(bytes, format)?.into_surface().ok_or_else(|| {
+        let mut document = file::read(bytes, format)?;
+        let dropped_arrays = std::mem::take(&mut document.dropped_arrays);
+        let mesh = document.into_surface().ok_or_else(|| {
             let message = "the file holds hexahedra; give a surface of polygons";
             Failure::input("surface-expected", &message)
         })?;
-        Ok(Self { mesh: Arc::new(mesh) })
+        Ok(Self { mesh: Arc::new(mesh), dropped_arrays })
     }
 
     /// A surface of faces given as arrays: x, y, z of each node; where each face's corners start, and the end of
@@ -72,7 +77,7 @@ impl Surface {
         check_offsets(&offsets, corners.len())?;
         let corners = corners.iter().copied().map(NodeId).collect();
         let mesh = PolygonMesh { positions, offsets, corners, ..PolygonMesh::default() };
-        Ok(Self { mesh: Arc::new(mesh) })
+        Ok(Self { mesh: Arc::new(mesh), dropped_arrays: Vec::new() })
     }
 
     /// What is known of the surface: an object with the fields of `SurfaceInfo` in `www/lib/results.ts`.
@@ -80,7 +85,7 @@ impl Surface {
     /// # Errors
     /// None in practice: numbers and words can always be converted.
     pub fn info(&self) -> Result<JsValue, Failure> {
-        to_object(&on_pool(|| Info::of(&self.mesh)))
+        to_object(&on_pool(|| Info::of(self)))
     }
 
     /// x, y, z of each node.
@@ -100,7 +105,8 @@ impl Surface {
 }
 
 impl Info {
-    fn of(mesh: &PolygonMesh) -> Self {
+    fn of(Surface { mesh, dropped_arrays }: &Surface) -> Self {
+        let mesh: &PolygonMesh = mesh;
         let edges = Edges::of_polygons(mesh);
         let faces_of = |wanted: fn(usize) -> bool| mesh.faces().filter(|f| wanted(f.len())).count();
         Self {
@@ -110,6 +116,7 @@ impl Info {
             quads: faces_of(|n| n == 4),
             polygons: faces_of(|n| n > 4),
             extent: Extent::of(&mesh.positions, &edges.ends),
+            dropped_arrays: dropped_arrays.clone(),
             defects: summary(&check_polygons(mesh)).iter().map(ToString::to_string).collect(),
         }
     }

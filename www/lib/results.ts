@@ -20,6 +20,8 @@ export interface SurfaceInfo {
   meanEdge: number;
   /** A fingerprint of nodes and faces: of quads alone the same as that of a `QuadMesh`. */
   hash: string;
+  /** Arrays of a VTU or legacy VTK file that are no tags, and were left out. */
+  droppedArrays: string[];
   /** What is wrong with the surface, in words; at most the first hundred. */
   defects: string[];
 }
@@ -88,6 +90,8 @@ export interface HexInfo {
   groupedFaces: number;
   /** Faces in the file that are no faces of the hexes, and were left out. */
   droppedFaces: number;
+  /** Arrays of a VTU or legacy VTK file that are no tags, and were left out. */
+  droppedArrays: string[];
   /** The groups of faces, by their names and the number that the file gave to them. */
   groups: { names: string[]; number: number | null }[];
   /** A fingerprint of nodes and hexes: the same as that of `RefinedHexes`. */

@@ -5,11 +5,17 @@ use crate::io::ReadError;
 use crate::io::refusal::{code, excerpt};
 use crate::io::scalars::{Column, Scalar};
 
-/// Arrays of one number a point or cell, by name.
-type Arrays = Vec<(String, Column)>;
+/// An array of an attribute.
+pub(super) struct Array {
+    pub name: String,
+    /// The numbers, if it has one a point or cell. Others are stepped over.
+    pub numbers: Option<Column>,
+}
 
-/// Reads the attribute after its keyword, for `count` points or cells: its arrays of one number each.
-/// The others are stepped over. `None` if the keyword is none of an attribute.
+type Arrays = Vec<Array>;
+
+/// Reads the attribute after its keyword, for `count` points or cells: its arrays, without tables of colours. `None` if the
+/// keyword is none of an attribute.
 pub(super) fn read_attribute(
     file: &mut LegacyFile<'_>,
     keyword: &[u8],
@@ -28,14 +34,16 @@ pub(super) fn read_attribute(
             read_typed(file, name, count, dimension)?
         }
         b"COLOR_SCALARS" => {
-            read_name(file)?;
+            let name = read_name(file)?;
             let components = file.number("the number of colours")?;
-            read_colours(file, count.saturating_mul(components))?
+            read_colours(file, count.saturating_mul(components))?;
+            vec![Array { name, numbers: None }]
         }
         b"LOOKUP_TABLE" => {
             read_name(file)?;
             let size = file.number("the size of the table")?;
-            read_colours(file, size.saturating_mul(4))?
+            read_colours(file, size.saturating_mul(4))?;
+            Vec::new()
         }
         _ => return Ok(None),
     };
@@ -102,18 +110,18 @@ fn read_data(
     let size = count.saturating_mul(components);
     let Some(scalar) = Scalar::from_legacy_name(kind) else {
         file.skip_column(kind, size)?;
-        return Ok(Vec::new());
+        return Ok(vec![Array { name, numbers: None }]);
     };
     let column = file.column(size, scalar, "an attribute")?;
-    Ok(if components == 1 { vec![(name, column)] } else { Vec::new() })
+    Ok(vec![Array { name, numbers: (components == 1).then_some(column) }])
 }
 
 /// Colours: bytes in a binary file, numbers from 0 to 1 in words.
-fn read_colours(file: &mut LegacyFile<'_>, size: usize) -> Result<Arrays, ReadError> {
+fn read_colours(file: &mut LegacyFile<'_>, size: usize) -> Result<(), ReadError> {
     file.start_data();
     let scalar = if file.is_binary() { Scalar::Unsigned(1) } else { Scalar::Float(4) };
     file.column(size, scalar, "colours")?;
-    Ok(Vec::new())
+    Ok(())
 }
 
 /// A name, in which VTK writes what would break a word as `%` and two hexadecimal digits.

@@ -1,16 +1,14 @@
 //! Reads legacy VTK: the header, and one section after the other.
 
-use std::collections::HashMap;
-
-use super::attributes::read_attribute;
+use super::attributes::{Array, read_attribute};
 use super::cells::{CellList, read_cells};
 use super::file::LegacyFile;
 use crate::geometry::Point;
 use crate::io::cell_collector::CellCollector;
 use crate::io::refusal::{code, excerpt, refuse};
-use crate::io::scalars::{Column, Scalar};
+use crate::io::scalars::Scalar;
 use crate::io::tag_numbers::Names;
-use crate::io::vtk_cells::{cell_attributes, collect_cells, is_wanted};
+use crate::io::vtk_cells::{CellData, collect_cells, is_wanted};
 use crate::io::{Document, Format, ReadError};
 
 /// The mesh in a legacy VTK file.
@@ -33,7 +31,12 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
                     let message = format!("{} is no section of the format", excerpt(word));
                     return Err(file.tokens.refuse(code::SYNTAX, message));
                 };
-                grid.cell_data.extend(arrays.into_iter().filter(|(name, _)| of_cells && is_wanted(name)));
+                for Array { name, numbers } in arrays {
+                    grid.cell_data.note(&name);
+                    if let Some(numbers) = numbers.filter(|_| of_cells && is_wanted(&name)) {
+                        grid.cell_data.wanted.insert(name, numbers);
+                    }
+                }
             }
         }
     }
@@ -47,7 +50,7 @@ struct Grid {
     cells: CellList,
     types: Vec<i64>,
     polygonal: [CellList; 3],
-    cell_data: HashMap<String, Column>,
+    cell_data: CellData,
 }
 
 /// VTK types of the cells in `VERTICES`, `LINES` and `POLYGONS`.
@@ -86,8 +89,8 @@ impl Grid {
         }
         let mut collector = CellCollector::new(Format::Vtk, self.positions.len(), 0);
         collect_cells(&mut collector, Format::Vtk, &self.cells.nodes, &self.cells.ends, &self.types)?;
-        let attributes = cell_attributes(self.cell_data, &self.types, &Names::default());
-        collector.finish(self.positions, attributes)
+        let (attributes, dropped_arrays) = self.cell_data.attributes(&self.types, &Names::default());
+        Ok(Document { dropped_arrays, ..collector.finish(self.positions, attributes)? })
     }
 }
 

@@ -1,7 +1,5 @@
 //! Reads VTU.
 
-use std::collections::HashMap;
-
 use super::TAG_NAMES;
 use super::array::{Decoder, Wanted};
 use super::xml::{DataArray, Piece, parse};
@@ -10,7 +8,7 @@ use crate::io::cell_collector::CellCollector;
 use crate::io::refusal::{code, refuse};
 use crate::io::scalars::Column;
 use crate::io::tag_numbers::{Names, names_from_json};
-use crate::io::vtk_cells::{cell_attributes, collect_cells, is_wanted};
+use crate::io::vtk_cells::{CellData, collect_cells, is_wanted};
 use crate::io::{Document, Format, ReadError};
 
 /// The mesh in a VTU file.
@@ -30,8 +28,8 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
     }
     let mut collector = CellCollector::new(Format::Vtu, grid.positions.len(), 0);
     collect_cells(&mut collector, Format::Vtu, &grid.connectivity, &grid.ends, &grid.types)?;
-    let attributes = cell_attributes(grid.cell_data, &grid.types, &named);
-    collector.finish(grid.positions, attributes)
+    let (attributes, dropped_arrays) = grid.cell_data.attributes(&grid.types, &named);
+    Ok(Document { dropped_arrays, ..collector.finish(grid.positions, attributes)? })
 }
 
 /// The pieces so far, as one grid.
@@ -41,7 +39,7 @@ struct Grid {
     connectivity: Vec<i64>,
     ends: Vec<i64>,
     types: Vec<i64>,
-    cell_data: HashMap<String, Column>,
+    cell_data: CellData,
 }
 
 impl Grid {
@@ -49,6 +47,7 @@ impl Grid {
         let first_node = self.positions.len();
         let first_corner = self.connectivity.len() as i64;
         let first_cell = self.ends.len();
+        piece.cell_data.iter().chain(&piece.point_data).for_each(|array| self.cell_data.note(&array.name));
         match &piece.points {
             Some(points) => self.add_points(decoder, points, piece.node_count)?,
             None if piece.node_count == 0 => {}
@@ -107,8 +106,8 @@ impl Grid {
         first_cell: usize,
     ) -> Result<(), ReadError> {
         let column = decoder.decode(array, wanted)?;
-        match self.cell_data.get_mut(&array.name) {
-            None if first_cell == 0 => drop(self.cell_data.insert(array.name.clone(), column)),
+        match self.cell_data.wanted.get_mut(&array.name) {
+            None if first_cell == 0 => drop(self.cell_data.wanted.insert(array.name.clone(), column)),
             None => {}
             Some(Column::Integers(values)) => values.extend(column.into_integers().unwrap_or_default()),
             Some(Column::Floats(values)) => values.extend(column.into_floats()),

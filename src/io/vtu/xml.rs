@@ -29,6 +29,7 @@ pub(super) struct Piece<'a> {
     /// `connectivity`, `offsets` and `types`.
     pub cells: Vec<DataArray<'a>>,
     pub cell_data: Vec<DataArray<'a>>,
+    pub point_data: Vec<DataArray<'a>>,
 }
 
 /// An array.
@@ -63,6 +64,7 @@ enum Element {
     Points,
     Cells,
     CellData,
+    PointData,
     FieldData,
     DataArray,
     Other,
@@ -167,6 +169,7 @@ impl<'a> Parser<'a> {
             "Points" => Element::Points,
             "Cells" => Element::Cells,
             "CellData" => Element::CellData,
+            "PointData" => Element::PointData,
             "FieldData" => Element::FieldData,
             "DataArray" => {
                 self.array = Some(parse_array(self.bytes, element, at)?);
@@ -199,6 +202,7 @@ impl<'a> Parser<'a> {
             Some(Element::Points) => piece.points = Some(array),
             Some(Element::Cells) => piece.cells.push(array),
             Some(Element::CellData) => piece.cell_data.push(array),
+            Some(Element::PointData) => piece.point_data.push(array),
             _ => {}
         }
     }

@@ -14,7 +14,7 @@ fn hexes_are_told_as_they_will_be() {
         ["--method", "two", "--region", "box:1,1,1,3,3,3:level=2", "--region", "sphere:9,9,9,1:h=1"];
     let stdout =
         succeed(&folder, &[&["refine", "grid.vtu", "--plan", "--report", "p.json"], &options[..]].concat());
-    let told = "1632 hexes to be made, with 672 transition hexes, in about ";
+    let told = "1632 hexes to be made, with 672 transition hexes, in less than 100 MB\n";
     assert!(stdout.starts_with(told), "{stdout}");
     let unasked = "  56 elements are refined that nothing asks for, so that all are in families of eight\n";
     assert!(stdout.contains(unasked), "{stdout}");

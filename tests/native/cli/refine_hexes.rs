@@ -73,6 +73,19 @@ fn nodes_that_are_not_welded_are_told() {
 }
 
 #[test]
+fn arrays_that_are_left_out_are_told() {
+    let mesh = "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n0 0 0\n1 0 0\n1 1 0\n\
+                0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\nCELL_DATA 1\n\
+                SCALARS stress double 1\nLOOKUP_TABLE default\n0.5\nVECTORS flux double\n1 2 3\n";
+    let folder = folder_holding("one.vtk", mesh);
+    let run = hexmill(&folder, &["refine", "one.vtk", "-o", "fine.vtu", "--levels", "1"]);
+    let told = "warning: one.vtk: these arrays are no tags of cells, and are left out: stress, flux\n";
+    assert_eq!(run.stderr.matches(told).count(), 1, "{}", run.stderr);
+    let run = hexmill(&folder, &["refine", "one.vtk", "-o", "fine.vtu", "--levels", "1", "--quiet"]);
+    assert_eq!(run.stderr, "");
+}
+
+#[test]
 fn growth_is_refused_if_that_is_wanted() {
     let folder = folder_with_grid();
     let regions = ["--region", "box:1,1,1,2,2,2:level=2", "--region", "box:2,2,1,3,3,2:level=2"];

@@ -122,3 +122,44 @@ fn content_of_no_format_is_refused_by_name() {
     assert!(refused(b"\x89PNG\r\n").message.contains("PNG"));
     assert!(refused(b"solid part\n").message.contains("STL"));
 }
+
+/// Arrays that say nothing of cells here are told by name, each once, in the file's order: those of one number a cell and
+/// of several, of nodes, and tags that are not the first choice.
+#[test]
+fn arrays_that_are_not_read_are_named() {
+    let vtk = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 1 1 0 0 1 0\n\
+               CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\nCELL_DATA 1\nSCALARS MaterialIds int 1\nLOOKUP_TABLE default\n5\n\
+               SCALARS stress double 1\nLOOKUP_TABLE default\n0.5\nVECTORS flux double\n1 2 3\nSCALARS Tag int 1\n\
+               LOOKUP_TABLE default\n7\nPOINT_DATA 4\nFIELD data 2\nheat 1 4 double\n1 2 3 4\nstress 1 4 double\n1 2 3 4\n";
+    let document = io::read(vtk.as_bytes(), Format::Vtk).expect("a quad");
+    assert_eq!(document.tags.of(0).and_then(|set| set.number), Some(7));
+    assert_eq!(document.dropped_arrays, ["MaterialIds", "stress", "flux", "heat"]);
+    let array = |name: &str, kind: &str, each: u32, values: &str| {
+        format!(
+            "<DataArray Name=\"{name}\" type=\"{kind}\" NumberOfComponents=\"{each}\">{values}</DataArray>"
+        )
+    };
+    let piece = format!(
+        "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><PointData>{}</PointData><CellData>{}{}{}</CellData><Points>{}</Points>\
+         <Cells>{}{}{}</Cells></Piece>",
+        array("heat", "Float64", 1, "1 2 3 4"),
+        array("Tag", "Float64", 1, "0.5"),
+        array("flux", "Float64", 3, "1 2 3"),
+        array("Level", "UInt8", 1, "0"),
+        array("Points", "Float64", 3, "0 0 0 1 0 0 1 1 0 0 1 0"),
+        array("connectivity", "Int64", 1, "0 1 2 3"),
+        array("offsets", "Int64", 1, "4"),
+        array("types", "UInt8", 1, "9"),
+    );
+    let vtu = format!(
+        "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"><UnstructuredGrid>{piece}{piece}</UnstructuredGrid></VTKFile>"
+    );
+    let document = io::read(vtu.as_bytes(), Format::Vtu).expect("two quads");
+    assert_eq!(document.dropped_arrays, ["Tag", "flux", "heat"]);
+    assert_eq!(document.level, [0, 0]);
+    // What is written here is read here.
+    for format in [Format::Vtu, Format::Vtk] {
+        let again = io::read(&io::write(&document, format).expect("a file"), format).expect("the same");
+        assert!(again.dropped_arrays.is_empty(), "{format}: {:?}", again.dropped_arrays);
+    }
+}

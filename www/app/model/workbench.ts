@@ -147,6 +147,8 @@ export class Workbench {
       });
       const cells = model instanceof HexMesh ? counted(model.info.hexes, 'hex', 'hexes') : counted(model.info.faces, 'face');
       this.log.add('info', `Read ${name}: ${cells}, ${counted(model.info.nodes, 'node')}.`);
+      const arrays = model.info.droppedArrays;
+      if (arrays.length > 0) this.log.add('warning', `${name}: these arrays are no tags of cells, and are left out: ${arrays.join(', ')}`);
       for (const defect of model.info.defects) this.log.add('warning', `${name}: ${defect}`);
       if (model instanceof HexMesh) await this.mesh();
     } catch (error) {

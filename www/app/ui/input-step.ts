@@ -7,7 +7,7 @@ import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { EXAMPLES } from '../model/examples.js';
 import { ACCEPT } from '../model/formats.js';
-import { count, significant } from '../model/text.js';
+import { count, counted, significant } from '../model/text.js';
 import type { Input } from '../model/job.js';
 import type { HexMesh, Surface, SurfaceInfo } from 'hexmill';
 
@@ -81,7 +81,7 @@ function hexFacts({ info }: HexMesh): TemplateResult {
     <dt>Hexes</dt><dd>${count(info.hexes)}</dd>
     <dt>Nodes</dt><dd>${count(info.nodes)}</dd>
     ${extents(info)}
-    <dt>Boundary</dt><dd>${count(info.boundaryFaces)} faces<small>${pieces(info.components)}</small></dd>
+    <dt>Boundary</dt><dd>${counted(info.boundaryFaces, 'face')}<small>${pieces(info.components)}</small></dd>
   </dl>`;
 }
 
@@ -101,10 +101,10 @@ function defectList(defects: readonly string[]): TemplateResult {
 }
 
 function kinds(info: SurfaceInfo): string {
-  const parts: [number, string][] = [[info.triangles, 'triangles'], [info.quads, 'quads'], [info.polygons, 'polygons']];
+  const parts: [number, string][] = [[info.triangles, 'triangle'], [info.quads, 'quad'], [info.polygons, 'polygon']];
   const present = parts.filter(([n]) => n > 0);
-  if (present.length === 1) return `all ${present[0]?.[1] ?? ''}`;
-  return present.map(([n, name]) => `${count(n)} ${name}`).join(', ');
+  if (present.length === 1) return `all ${present[0]?.[1] ?? ''}s`;
+  return present.map(([n, name]) => counted(n, name)).join(', ');
 }
 
 function closure(info: SurfaceInfo): string {

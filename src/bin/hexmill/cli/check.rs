@@ -24,7 +24,7 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     check_outputs(&inputs, &outputs)?;
     let progress = Progress::new(quiet);
     let mut loaded = progress.stage("read", || load(&args.mesh))?;
-    loaded.warn_of_dropped_faces(quiet);
+    loaded.warn_of_dropped(quiet);
     let document = loaded.take_document();
     let mut mesh = progress.stage("measure", || MeshReport::of(&document, 0));
     progress.stage("check", || mesh.check(&document.mesh));

@@ -16,7 +16,7 @@ pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {
     check_outputs(&[("the input", &args.input)], &[("--output", &args.output)])?;
     let progress = Progress::new(quiet);
     let loaded = progress.stage("read", || load(&args.input))?;
-    loaded.warn_of_dropped_faces(quiet);
+    loaded.warn_of_dropped(quiet);
     let document = loaded.document;
     let bytes = progress
         .stage("encode", || io::write(&document, format))

@@ -107,9 +107,10 @@ impl Loaded {
         std::mem::replace(&mut self.document, Document::from(PolygonMesh::default()))
     }
 
-    /// Warns of faces and groups in a file of hexes that could not be kept.
-    pub(crate) fn warn_of_dropped_faces(&self, quiet: bool) {
-        let Document { dropped_faces: count, dropped_groups: groups, .. } = &self.document;
+    /// Warns of faces, groups and arrays in a file that could not be kept.
+    pub(crate) fn warn_of_dropped(&self, quiet: bool) {
+        let Document { dropped_faces: count, dropped_groups: groups, dropped_arrays: arrays, .. } =
+            &self.document;
         let path = self.path.display();
         if *count > 0 && !quiet {
             tell(&format!(
@@ -122,6 +123,12 @@ impl Loaded {
                 "warning: {path}: these groups are not of hexes and their faces alone, and what else is in them is left \
                  out: {}\n",
                 groups.join(", ")
+            ));
+        }
+        if !arrays.is_empty() && !quiet {
+            tell(&format!(
+                "warning: {path}: these arrays are no tags of cells, and are left out: {}\n",
+                arrays.join(", ")
             ));
         }
     }

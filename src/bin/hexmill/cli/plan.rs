@@ -95,7 +95,7 @@ pub(super) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
-    loaded.warn_of_dropped_faces(quiet);
+    loaded.warn_of_dropped(quiet);
     let document: Document = loaded.take_document();
     let planned = match document.mesh {
         AnyMesh::Hexes(_) => refine_hexes::plan(args, document, &progress),

@@ -43,7 +43,7 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
-    loaded.warn_of_dropped_faces(quiet);
+    loaded.warn_of_dropped(quiet);
     let document = loaded.take_document();
     let refined = match document.mesh {
         AnyMesh::Hexes(_) => {

@@ -152,6 +152,12 @@ fn bytes(forecast: &HexForecast) -> u64 {
     BYTES + forecast.hexes as u64 * BYTES_PER_HEX
 }
 
+/// Small meshes take far less than what is added for everything besides their hexes.
+fn memory_in_words(bytes: u64) -> String {
+    let megabytes = (bytes as f64 / 1e6).ceil();
+    if megabytes <= 100.0 { "less than 100 MB".into() } else { format!("about {megabytes:.0} MB") }
+}
+
 /// What will be done, told before it is.
 fn plan_in_words(plan: &HexPlan) -> String {
     let (Added { base, closure, conflicts, .. }, forecast) = (plan.added(), plan.forecast());
@@ -163,10 +169,10 @@ fn plan_in_words(plan: &HexPlan) -> String {
         (conflicts, "where the interface touches itself"),
     ];
     let mut lines = vec![format!(
-        "{} to be made, with {}, in about {:.0} MB",
+        "{} to be made, with {}, in {}",
         counted(forecast.hexes, "hex", "hexes"),
         counted(forecast.transition, "transition hex", "transition hexes"),
-        (bytes(forecast) as f64 / 1e6).ceil()
+        memory_in_words(bytes(forecast))
     )];
     let told = reasons.iter().filter(|(count, _)| *count > 0);
     lines.extend(
