@@ -101,17 +101,9 @@ impl<'a> Interface<'a> {
         }
     }
 
-    /// The hex, by its place in the star, that keeps such a face, and which of its faces it is.
-    pub(super) fn keeper(&self, star: &Star, face: &StarFace) -> (usize, u8) {
-        match face.second {
-            Some(second) if star.is_interface(face) => {
-                let (refined, coarse) =
-                    if star.is_refined(second.0) { (second, face.first) } else { (face.first, second) };
-                let side = 6 * star.hexes[refined.0].0 + Side::from(refined.1);
-                if self.kept_by_coarse.binary_search(&side).is_ok() { coarse } else { refined }
-            }
-            _ => face.first,
-        }
+    /// Who keeps the faces between materials.
+    pub(super) fn kept(&self) -> Kept<'_> {
+        Kept::ByCoarse(&self.kept_by_coarse)
     }
 
     /// The place of a node of the mesh in `nodes`, if it is there.
@@ -126,10 +118,8 @@ impl<'a> Interface<'a> {
             star.load(self, place);
             let least = |face: &&StarFace| face.rest.iter().all(|&n| n > star.node);
             let sides = star.faces.iter().filter(least).filter_map(|face| {
-                let (a, b) = (face.first, face.second?);
-                let refined = star.is_refined(a.0);
-                let (fine, coarse) = if refined { (a, b) } else { (b, a) };
-                (refined != star.is_refined(b.0)).then(|| InterfaceFace {
+                let [fine, coarse] = star.sides(face)?;
+                Some(InterfaceFace {
                     refined: star.hexes[fine.0].0,
                     refined_face: fine.1,
                     coarse: star.hexes[coarse.0].0,
@@ -139,6 +129,27 @@ impl<'a> Interface<'a> {
             found.extend(sides);
         };
         in_blocks(self.nodes.len(), monitor, Star::default, at)
+    }
+}
+
+/// Which side keeps the faces between refined and coarse hexes of different materials.
+#[derive(Clone, Copy)]
+pub(super) enum Kept<'a> {
+    /// All by one side: true for the refined one.
+    All(bool),
+    /// These by the coarse side, given as sides of refined hexes, ascending, and the others by the refined one.
+    ByCoarse(&'a [Side]),
+}
+
+impl Kept<'_> {
+    /// The hex, by its place in the star, that keeps a face, and which of its faces it is.
+    pub(super) fn keeper(self, star: &Star, face: &StarFace) -> (usize, u8) {
+        let Some([refined, coarse]) = star.sides(face) else { return face.first };
+        let is_by_refined = match self {
+            Self::All(refined) => refined,
+            Self::ByCoarse(sides) => sides.binary_search(&star.side(refined)).is_err(),
+        };
+        if is_by_refined { refined } else { coarse }
     }
 }
 
@@ -221,5 +232,20 @@ impl Star {
     /// Is the face between a refined and a coarse hex?
     pub(super) fn is_interface(&self, face: &StarFace) -> bool {
         face.second.is_some_and(|(second, _)| self.is_refined(face.first.0) != self.is_refined(second))
+    }
+
+    /// The refined and the coarse hex of a face of the interface, by their places, and which of their faces it is.
+    pub(super) fn sides(&self, face: &StarFace) -> Option<[(usize, u8); 2]> {
+        let (a, b) = (face.first, face.second?);
+        match (self.is_refined(a.0), self.is_refined(b.0)) {
+            (true, false) => Some([a, b]),
+            (false, true) => Some([b, a]),
+            _ => None,
+        }
+    }
+
+    /// The side that a face of a hex of the star is.
+    pub(super) fn side(&self, (hex, face): (usize, u8)) -> Side {
+        6 * self.hexes[hex].0 + Side::from(face)
     }
 }

@@ -12,27 +12,43 @@
 //!                  A   | A
 //! ```
 //!
-//! 1. At each edge of such a face see what the other faces between materials there are between: if coarse hexes, the
-//!    coarse side keeps the face, if refined ones, that side. At a pinched edge it is the side that is joined.
-//! 2. Faces that share an edge are kept by the same side. If that cannot be, refine the coarse hexes at faces that the
-//!    coarse side would keep.
-//! 3. What nothing is said of is kept by the refined side.
+//! Either side can keep a face, if the other can leave it:
+//!
+//! 1. At each edge of such a face see whether a side has faces between materials of its own. It can leave the edge along
+//!    one of them that lies between two hexes, each at the interface; of any more hexes it must keep the edge. At a pinched
+//!    edge the side that is joined must.
+//! 2. At each node see whether a side can move at all (`shift`) where the other keeps all the faces there; else it must
+//!    keep them.
+//! 3. Faces that share an edge, or a node with but two regions, are kept by the same side. Where both sides must, coarse
+//!    hexes are refined at the places where the refined side must: these are notches of the refined set. That ends at
+//!    a convex one at the latest, and does not follow the face between materials along its steps.
+//! 4. What nothing is said of is kept by the refined side.
 
 use super::blocks::in_blocks;
-use super::interface::{Interface, InterfaceFace, Star, StarFace};
-use super::pinch::Pinches;
+use super::interface::{Interface, InterfaceFace, Kept, Star, StarFace};
+use super::pinch::{Pinches, add_coarse};
+use super::regions::{Regions, has_edge};
+use super::shift::Shifts;
 use super::stage::StageError;
 use crate::Monitor;
+use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::topology::{Sets, Side};
 
-/// One of the faces at an edge, and what the edge says of it.
+/// A face that is kept by the same side as the first one at an edge or a node, and what is said of them there.
 struct Tie {
-    /// The refined sides of the face and of the first one there.
-    side: Side,
-    first: Side,
-    by_coarse: bool,
-    by_refined: bool,
+    /// The refined sides of the face and of the first one.
+    faces: [Side; 2],
+    said: Said,
+}
+
+/// What is said of faces at an edge or a node.
+#[derive(Clone, Copy)]
+struct Said {
+    /// Must the coarse side keep them, must the refined one?
+    must: [bool; 2],
+    /// A coarse hex there: if it is refined, the refined side may leave.
+    coarse: u32,
 }
 
 /// Of the faces between refined and coarse hexes of different materials those that the coarse side keeps: their refined
@@ -41,6 +57,7 @@ struct Tie {
 /// # Errors
 /// The coarse hexes that must be refined too where neither side can keep the faces, or if the monitor stops it.
 pub(super) fn kept_by_coarse(
+    positions: &[Point],
     interface: &Interface,
     pinches: &Pinches,
     monitor: &dyn Monitor,
@@ -54,60 +71,99 @@ pub(super) fn kept_by_coarse(
     let number = |side: Side| {
         faces.binary_search_by_key(&side, InterfaceFace::refined_side).expect("a face of the interface")
     };
-    let at = |star: &mut Star, place: usize, found: &mut Vec<Tie>| {
+    let buffers = || (Star::default(), Regions::default(), Shifts::default());
+    let at = |buffers: &mut (Star, Regions, Shifts), place: usize, found: &mut Vec<Tie>| {
+        let (star, regions, shifts) = buffers;
         star.load(interface, place);
-        ties(interface, star, pinches, found);
+        at_edges(interface, star, pinches, found);
+        if faces_between(interface, star).any(|face| star.is_interface(face)) {
+            regions.load(interface, star, pinches, place);
+            at_node(positions, interface, star, (regions, shifts), found);
+        }
     };
-    let ties = in_blocks(interface.nodes.len(), monitor, Star::default, at)?;
+    let ties = in_blocks(interface.nodes.len(), monitor, buffers, at)?;
     let mut sets = Sets::new(faces.len());
     for tie in &ties {
-        sets.join(number(tie.side) as u32, number(tie.first) as u32, false);
+        let [a, b] = tie.faces.map(|side| number(side) as u32);
+        sets.join(a, b, false);
     }
     let mut set_of = |side: Side| sets.root(number(side) as u32).0 as usize;
-    let (mut by_coarse, mut by_refined) = (vec![false; faces.len()], vec![false; faces.len()]);
-    for tie in &ties {
-        let set = set_of(tie.side);
-        by_coarse[set] |= tie.by_coarse;
-        by_refined[set] |= tie.by_refined;
+    let mut must = vec![[false; 2]; faces.len()];
+    for Tie { faces: [side, _], said } in &ties {
+        let of_set = &mut must[set_of(*side)];
+        *of_set = [0, 1].map(|k| of_set[k] || said.must[k]);
     }
-    let mut more: Vec<u32> = Vec::new();
-    for tie in ties.iter().filter(|tie| tie.by_coarse) {
-        let set = set_of(tie.side);
-        more.extend((by_coarse[set] && by_refined[set]).then(|| faces[number(tie.side)].coarse));
-    }
+    let lifts = |tie: &&Tie| tie.said.must[1] && must[set_of(tie.faces[0])] == [true; 2];
+    let mut more: Vec<u32> = ties.iter().filter(lifts).map(|tie| tie.said.coarse).collect();
     if !more.is_empty() {
         more.sort_unstable();
         more.dedup();
         return Err(StageError::Conflict(more));
     }
     let sides = faces.iter().map(InterfaceFace::refined_side);
-    Ok(sides.filter(|&side| by_coarse[set_of(side)]).collect())
+    Ok(sides.filter(|&side| must[set_of(side)][0]).collect())
+}
+
+/// The faces between materials at a star's node.
+fn faces_between<'a>(interface: &'a Interface, star: &'a Star) -> impl Iterator<Item = &'a StarFace> {
+    star.faces.iter().filter(|face| interface.kind(star, face).is_some_and(|kind| kind.is_inner()))
+}
+
+/// Ties faces of the interface, and says the same of them.
+fn tie<'a>(star: &Star, faces: impl Iterator<Item = &'a StarFace>, said: Said, found: &mut Vec<Tie>) {
+    let mut sides = faces.filter_map(|face| Some(star.side(star.sides(face)?[0])));
+    let Some(first) = sides.next() else { return };
+    found.extend(std::iter::once(first).chain(sides).map(|side| Tie { faces: [side, first], said }));
 }
 
 /// What the edges from a star's node to greater ones say.
-fn ties(interface: &Interface, star: &Star, pinches: &Pinches, found: &mut Vec<Tie>) {
-    let is_inner = |face: &&StarFace| interface.kind(star, face).is_some_and(|kind| kind.is_inner());
-    let inner: Vec<&StarFace> = star.faces.iter().filter(is_inner).collect();
-    let mut ends: Vec<NodeId> = inner.iter().flat_map(|face| [face.rest[0], face.rest[2]]).collect();
+fn at_edges(interface: &Interface, star: &Star, pinches: &Pinches, found: &mut Vec<Tie>) {
+    let between: Vec<&StarFace> = faces_between(interface, star).collect();
+    let mut ends: Vec<NodeId> = between.iter().flat_map(|face| [face.rest[0], face.rest[2]]).collect();
     ends.retain(|&end| end > star.node);
     ends.sort_unstable();
     ends.dedup();
     for end in ends {
-        let at_edge = || inner.iter().filter(|face| face.has_edge(end));
-        let is_between = |refined: bool| {
-            at_edge().any(|face| !star.is_interface(face) && star.is_refined(face.first.0) == refined)
+        let at_edge = || between.iter().copied().filter(|face| face.has_edge(end));
+        let mut coarse = Vec::new();
+        add_coarse(star, &mut coarse, |hex| has_edge(interface, star, hex, end));
+        // Without a coarse hex the edge is none of the interface.
+        let Some(&coarse) = coarse.first() else { continue };
+        let must = match pinches.between(star.node, end) {
+            Some(pinch) => [!pinch.joins_refined, pinch.joins_refined],
+            None => [false, true].map(|refined| {
+                let is_within =
+                    |face: &StarFace| !star.is_interface(face) && star.is_refined(face.first.0) == refined;
+                at_edge().any(is_within) && !can_leave_edge(interface, star, end, refined)
+            }),
         };
-        let (by_coarse, by_refined) = match pinches.between(star.node, end) {
-            Some(pinch) => (!pinch.joins_refined, pinch.joins_refined),
-            None => (is_between(false) && !is_between(true), is_between(true) && !is_between(false)),
-        };
-        let mut sides = at_edge().filter(|face| star.is_interface(face)).filter_map(|face| {
-            let refined = [Some(face.first), face.second];
-            let (hex, side) = refined.into_iter().flatten().find(|&(hex, _)| star.is_refined(hex))?;
-            Some(6 * star.hexes[hex].0 + Side::from(side))
-        });
-        let Some(first) = sides.next() else { continue };
-        let tie = |side| Tie { side, first, by_coarse, by_refined };
-        found.extend(std::iter::once(first).chain(sides).map(tie));
+        tie(star, at_edge(), Said { must, coarse }, found);
     }
+}
+
+/// Can a side with a face between materials leave an edge along it?
+fn can_leave_edge(interface: &Interface, star: &Star, end: NodeId, refined: bool) -> bool {
+    let is_on_boundary = star.faces.iter().any(|face| face.has_edge(end) && face.second.is_none());
+    let of_side = |&hex: &usize| star.is_refined(hex) == refined && has_edge(interface, star, hex, end);
+    !is_on_boundary && (0..star.hexes.len()).filter(of_side).count() == 2
+}
+
+/// What a star says whose node has two regions, between which some of its faces lie.
+fn at_node(
+    positions: &[Point],
+    interface: &Interface,
+    star: &Star,
+    (regions, shifts): (&Regions, &mut Shifts),
+    found: &mut Vec<Tie>,
+) {
+    if regions.all.len() != 2 {
+        return;
+    }
+    let must = [false, true].map(|refined| {
+        shifts.load(positions, interface, star, regions, Kept::All(!refined));
+        !shifts.can_leave(regions, refined)
+    });
+    let mut coarse = Vec::new();
+    add_coarse(star, &mut coarse, |_| true);
+    tie(star, faces_between(interface, star), Said { must, coarse: coarse[0] }, found);
 }

@@ -100,7 +100,7 @@ pub(super) fn pillow(
         return Err(StageError::Conflict(more));
     }
     monitor.checkpoint(PILLOW, 0.4)?;
-    interface.kept_by_coarse = kept_by_coarse(interface, &pinches, monitor)?;
+    interface.kept_by_coarse = kept_by_coarse(positions, interface, &pinches, monitor)?;
     let interface = &*interface;
     let ridges = Ridges::new(positions, interface, &pinches, monitor)?;
     let copies = Copies::new(positions, interface, &pinches, &ridges, monitor)?;
@@ -195,7 +195,7 @@ impl Copies {
         for place in places {
             star.load(interface, place);
             regions.load(interface, &star, pinches, place);
-            shifts.load(positions, interface, &star, &regions);
+            shifts.load(positions, interface, &star, &regions, interface.kept());
             let staying_side = ridges.staying_side(place);
             let side_beside = ridges.side_beside(interface, &star);
             shifts.choose_keepers(&regions, staying_side, side_beside);

@@ -80,7 +80,7 @@ impl Ridges {
                 return;
             }
             regions.load(interface, star, pinches, place);
-            shifts.load(positions, interface, star, regions);
+            shifts.load(positions, interface, star, regions, interface.kept());
             let others: Vec<usize> = shifts.ridges.iter().filter_map(|&end| interface.place(end)).collect();
             let steepness = |refined| shifts.steepness(positions, interface, star, regions, refined);
             found.extend((!others.is_empty()).then(|| AtNode {

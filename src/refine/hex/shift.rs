@@ -17,9 +17,9 @@
 //! 6. with the most neighbours,
 //! 7. of refined hexes.
 
-use super::interface::{Interface, Star, StarFace};
+use super::interface::{Interface, Kept, Star, StarFace};
 use super::pillow::THICKNESS;
-use super::regions::Regions;
+use super::regions::{Regions, interface_ends};
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{FACES, NEIGHBOURS};
@@ -76,8 +76,6 @@ struct Shift {
     is_on_ridge: bool,
     /// Has it boundary faces at a ridge whose other faces are the other side's?
     is_at_ridge: bool,
-    /// Would it move along such a ridge, beyond its end?
-    moves_along_ridge: bool,
     /// Which way it moves, if it can; of length 1.
     direction: Option<Point>,
     keeps: bool,
@@ -93,13 +91,14 @@ impl Shifts {
         interface: &Interface,
         star: &Star,
         regions: &Regions,
+        kept: Kept,
     ) {
         let at = |n: NodeId| positions[n.index()];
         self.at = at(star.node);
         self.lean = Point::ZERO;
         self.regions.clear();
         self.regions.resize(regions.all.len(), Shift::default());
-        self.find_bounds(positions, interface, star, regions);
+        self.find_bounds(positions, interface, star, regions, kept);
         self.ridges.clear();
         let mut shortest = f64::INFINITY;
         for &(hex, corner, _) in &star.hexes {
@@ -112,7 +111,7 @@ impl Shifts {
         for region in 0..regions.all.len() {
             let is_on_boundary = self.bounds.iter().any(|bound| bound.region == region as u32);
             let (towards, is_on_ridge) = if is_on_boundary {
-                self.along_boundary(positions, region as u32)
+                self.along_boundary(positions, star, region as u32)
             } else {
                 let center = mean_center(positions, interface, star, regions, region as u32);
                 (Some(center - self.at), false)
@@ -120,14 +119,21 @@ impl Shifts {
             let direction = towards.and_then(Point::try_normalize);
             self.regions[region] = Shift { is_on_boundary, is_on_ridge, direction, ..Shift::default() };
         }
-        self.find_ridges(positions, regions);
+        self.find_ridges(regions);
     }
 
-    fn find_bounds(&mut self, positions: &[Point], interface: &Interface, star: &Star, regions: &Regions) {
+    fn find_bounds(
+        &mut self,
+        positions: &[Point],
+        interface: &Interface,
+        star: &Star,
+        regions: &Regions,
+        kept: Kept,
+    ) {
         self.bounds.clear();
         for face in &star.faces {
             let Some(kind) = interface.kind(star, face) else { continue };
-            let (hex, side) = interface.keeper(star, face);
+            let (hex, side) = kept.keeper(star, face);
             let id = star.hexes[hex].0;
             let nodes = &interface.hexes[id as usize];
             let [a, b, c, d] = FACES[usize::from(side)].map(|k| positions[nodes[usize::from(k)].index()]);
@@ -143,8 +149,9 @@ impl Shifts {
     }
 
     /// Which way a region that owns boundary faces moves, if it can; and whether it has a ridge of its own. It cannot move
-    /// where faces between materials that it owns go all around the node.
-    fn along_boundary(&self, positions: &[Point], region: u32) -> (Option<Point>, bool) {
+    /// where faces between materials that it owns go all around the node, nor in line with an edge of the interface that
+    /// lies on a ridge: the layer's hexes there would have three nodes on that.
+    fn along_boundary(&self, positions: &[Point], star: &Star, region: u32) -> (Option<Point>, bool) {
         let own = || self.bounds.iter().filter(move |bound| bound.region == region);
         let Some(first) = own().next() else { return (None, false) };
         if !own().any(|bound| bound.has_ridge_to(first)) {
@@ -160,7 +167,21 @@ impl Shifts {
         let direction = positions[end.index()] - self.at;
         let is_alone = ends.all(|(.., other)| other == end);
         let unit = direction.normalize_or_zero();
-        let can_move = is_alone && own().all(|bound| bound.normal.dot(unit).abs() < ALONG);
+        let is_along = |other: NodeId| {
+            let edge = positions[other.index()] - self.at;
+            edge.dot(unit).abs() > RIDGE * edge.length()
+        };
+        // A ridge of the boundary that one region has on both sides is a pinched edge: there fewer hexes are refined if it
+        // is tried.
+        let is_tried =
+            |a: &Bound, b: &Bound| a.region == b.region && !a.kind.is_inner() && !b.kind.is_inner();
+        let is_of_interface = |other: NodeId| interface_ends(star).any(|end| end == other);
+        let in_line = |(a, b, other): (&Bound, &Bound, NodeId)| {
+            !is_tried(a, b) && is_along(other) && is_of_interface(other)
+        };
+        let can_move = is_alone
+            && own().all(|bound| bound.normal.dot(unit).abs() < ALONG)
+            && !self.ridge_pairs().any(in_line);
         (can_move.then_some(direction), true)
     }
 
@@ -175,19 +196,13 @@ impl Shifts {
     }
 
     /// Finds the ridges whose faces belong to regions of different sides.
-    fn find_ridges(&mut self, positions: &[Point], regions: &Regions) {
+    fn find_ridges(&mut self, regions: &Regions) {
         let is_refined = |bound: &Bound| regions.all[bound.region as usize].is_refined;
         let between = self.ridge_pairs().filter(|(a, b, _)| is_refined(a) != is_refined(b));
         let between: Vec<_> = between.map(|(a, b, end)| ([a.region, b.region], end)).collect();
         for (beside, end) in between {
             self.ridges.push(end);
-            let beyond = self.at - positions[end.index()];
-            let is_beyond = |direction: Point| direction.dot(beyond) > RIDGE * beyond.length();
-            for region in beside {
-                let shift = &mut self.regions[region as usize];
-                shift.is_at_ridge = true;
-                shift.moves_along_ridge |= shift.is_on_ridge && shift.direction.is_some_and(is_beyond);
-            }
+            beside.into_iter().for_each(|region| self.regions[region as usize].is_at_ridge = true);
         }
     }
 
@@ -198,12 +213,9 @@ impl Shifts {
         of_side.map(|(_, shift)| shift).filter(|shift| shift.is_at_ridge)
     }
 
-    /// Do all regions of the side that is to stay on the ridges keep the node, and can those of the other leave?
+    /// Do all regions of the side that is to stay on the ridges keep the node?
     pub(super) fn keeps_ridges(&self, regions: &Regions, staying_side: Option<bool>) -> bool {
-        staying_side.is_none_or(|refined| {
-            self.at_ridge(regions, refined).all(|shift| shift.keeps)
-                && self.at_ridge(regions, !refined).all(|shift| !shift.moves_along_ridge)
-        })
+        staying_side.is_none_or(|refined| self.at_ridge(regions, refined).all(|shift| shift.keeps))
     }
 
     /// How steeply the regions of a side leave the interface: the least sine of their angles to it.
@@ -224,9 +236,7 @@ impl Shifts {
     /// Must a side stay on the ridges, because regions of it cannot move, the outside joins them, or the other side's
     /// cannot all stay?
     pub(super) fn must_stay(&self, regions: &Regions, refined: bool) -> bool {
-        if self.at_ridge(regions, !refined).nth(1).is_some()
-            || self.at_ridge(regions, refined).any(|shift| shift.moves_along_ridge)
-        {
+        if self.at_ridge(regions, !refined).nth(1).is_some() {
             return true;
         }
         let of_side =
@@ -265,6 +275,13 @@ impl Shifts {
             copies += 1;
             shift.copy = copies;
         }
+    }
+
+    /// Can the regions of a side move?
+    pub(super) fn can_leave(&self, regions: &Regions, refined: bool) -> bool {
+        let mut of_side =
+            regions.all.iter().zip(&self.regions).filter(|(region, _)| region.is_refined == refined);
+        of_side.all(|(_, shift)| shift.direction.is_some())
     }
 
     /// Is there a region that must move and cannot?

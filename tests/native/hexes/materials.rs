@@ -7,7 +7,7 @@ use hexmill::geometry::Point;
 use hexmill::mesh::quality::{Certainty, hex_quality};
 use hexmill::mesh::topology::{HexFaces, hex_of};
 use hexmill::mesh::{HexMesh, TagSet, Tags, Volumes, check_hexes};
-use hexmill::refine::hex::{HexOptions, Method, RefinedHexes, refine_hexes};
+use hexmill::refine::hex::{HexOptions, HexPlan, Method, RefinedHexes, refine_hexes};
 use hexmill::sizing::{Region, Target};
 use rayon::prelude::*;
 
@@ -17,7 +17,7 @@ use super::meshes::{Numbers, RADIUS, cells, cubes, cylinder};
 const METHODS: [Method; 3] = [Method::One, Method::Two, Method::Three];
 
 /// Gives materials to the hexes of a mesh, by their middles.
-fn tagged(mesh: HexMesh, material: impl Fn(Point) -> u32) -> HexMesh {
+fn tagged(mesh: HexMesh, mut material: impl FnMut(Point) -> u32) -> HexMesh {
     let middle = |hex: &[_; 8]| {
         let corners = hex.map(|n: hexmill::mesh::NodeId| mesh.positions[n.index()]);
         corners.into_iter().sum::<Point>() / 8.0
@@ -252,5 +252,50 @@ fn any_cells_are_materials() {
         let size = [0, 1, 2].map(|_| 2.0 + 2.0 * (2.0 * numbers.next()).floor());
         let region = block(at, [0, 1, 2].map(|k| at[k] + size[k]), 1);
         planar("automatic", &split, &[region], Method::Auto);
+    });
+}
+
+/// Cubes of materials that meet in steps.
+fn stepped(cells: u32, name: &str) -> HexMesh {
+    let most = f64::from(cells);
+    let mut numbers = Numbers(7);
+    tagged(cubes(cells), |p| {
+        let is_far = u32::from(p.x + p.y > most);
+        match name {
+            "stairs" => is_far,
+            "corners" => u32::from(p.x + p.y + p.z > 1.5 * most),
+            "ball" => u32::from(p.distance(Point::splat(0.5 * most)) < 0.35 * most),
+            "three" => is_far + 2 * u32::from(p.z + 0.5 * p.x > 0.6 * most),
+            _ => (3.0 * numbers.next()) as u32,
+        }
+    })
+}
+
+/// The refined set does not walk along the steps: little is refined beyond what is told, and nothing for hexes inside out.
+#[test]
+fn materials_that_meet_in_steps_take_few_more_hexes() {
+    let balls = [(4.0, 4.0, 4.0, 1.5), (3.3, 4.6, 3.9, 2.2)].map(|(x, y, z, radius)| Region {
+        shape: hexmill::sizing::Shape::Sphere { center: [x, y, z].into(), radius },
+        target: Target::Level(2),
+    });
+    let names = ["stairs", "corners", "ball", "three", "random"];
+    let worlds: Vec<_> = names.iter().flat_map(|name| balls.iter().map(move |ball| (*name, ball))).collect();
+    worlds.into_par_iter().for_each(|(name, ball)| {
+        let input = stepped(8, name);
+        for method in METHODS {
+            let regions = for_method(method, std::slice::from_ref(ball));
+            let options = HexOptions { method, regions: regions.clone(), ..HexOptions::default() };
+            let told = HexPlan::new(&input, &options, &Silent).expect("a plan").forecast().hexes as f64;
+            let (refined, worst) = planar(name, &input, &regions, method);
+            let growth = refined.mesh.hexes.len() as f64 / told;
+            let most = match (method, name) {
+                (Method::One, _) => 1.0,
+                (_, "random") => 1.3,
+                _ => 1.21,
+            };
+            assert!(growth <= most, "{name}, {method:?}: {growth} times the hexes told");
+            assert_eq!(refined.added.repairs, 0, "{name}, {method:?}");
+            assert!(worst >= least(method), "{name}, {method:?}: {worst}");
+        }
     });
 }
