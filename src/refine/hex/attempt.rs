@@ -93,7 +93,7 @@ fn relax(
 }
 
 /// What it means that a stage was not made, other than for a conflict: closed trees leave no such place.
-fn without_template(error: StageError) -> HexRefineError {
+pub(super) fn without_template(error: StageError) -> HexRefineError {
     match error {
         StageError::Cancelled(cancelled) => HexRefineError::Cancelled(cancelled),
         StageError::Conflict(hexes) | StageError::Forbidden(hexes) | StageError::NotCouplable(hexes) => {

@@ -9,16 +9,20 @@
 //! | II | 7 a face |
 //! | 3-refinement | 13 a face |
 //!
-//! The figures are exact, unless a stage is made again with more refined: for hexes that cannot be untangled, or for an
-//! interface that cannot be separated from ridges or from faces between materials, which the trees do not know.
+//! Whether an interface can be separated, from ridges and from faces between materials too, is seen on the trees as it will
+//! be on the mesh. So the figures are exact, unless a stage is made again with more refined for hexes that cannot be
+//! untangled.
 
 use serde::Serialize;
 
+use super::heritage::Heritage;
 use super::interface::Interface;
 use super::options::Method;
-use super::pinch::Pinches;
+use super::pillow::can_be_separated;
+use super::stage::StageError;
 use super::trees::TreeLevel;
-use crate::{Cancelled, Monitor};
+use crate::Monitor;
+use crate::geometry::Point;
 
 /// What a stage will make.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -61,43 +65,33 @@ impl HexForecast {
     }
 }
 
-/// What is known of a stage before it is made.
-pub(super) enum Foreseen {
-    /// It will be made so, from a mesh of no hexes: those of the mesh come on top.
-    Stage(StageForecast),
-    /// The interface cannot be separated unless these elements are refined too.
-    Conflict(Vec<u32>),
-}
-
-/// Looks at the interface within a level of trees with so many `children`, over `node_count` nodes.
+/// Looks at the interface within a level of trees with so many `children`, over nodes at `positions`. The stage will be made
+/// so, from a mesh of no hexes: those of the mesh come on top.
+///
+/// # Errors
+/// The elements that must be refined too where the interface cannot be separated, or if the monitor stops it.
 pub(super) fn foresee(
-    level: TreeLevel,
-    (node_count, children): (usize, usize),
+    (level, heritage): (TreeLevel, &Heritage),
+    (positions, children): (&[Point], usize),
     method: Method,
     monitor: &dyn Monitor,
-) -> Result<Foreseen, Cancelled> {
+) -> Result<StageForecast, StageError> {
     let refined = level.refined.len();
     if refined == level.elements.len() {
-        return Ok(Foreseen::Stage(StageForecast {
-            refined,
-            hexes: (children - 1) * refined,
-            ..Default::default()
-        }));
+        return Ok(StageForecast { refined, hexes: (children - 1) * refined, ..Default::default() });
     }
-    let interface = Interface::new(node_count, level.elements, level.is_refined, monitor)?;
+    let interface = Interface::new(positions.len(), level.elements, level.is_refined, monitor)?;
+    let mut interface = heritage.within(interface);
     let faces = interface.faces(monitor)?.len();
     let (transition, replaced) = match method {
         Method::One => layer_cells(&interface),
         Method::Two | Method::Auto | Method::Three => {
-            let more = Pinches::find(&interface, monitor)?.resolve(&interface, monitor)?;
-            if !more.is_empty() {
-                return Ok(Foreseen::Conflict(more));
-            }
+            can_be_separated(positions, &mut interface, monitor)?;
             (if method == Method::Three { 13 } else { 7 } * faces, 0)
         }
     };
     let hexes = (children - 1) * refined + transition - replaced;
-    Ok(Foreseen::Stage(StageForecast { refined, interface_faces: faces, transition, hexes }))
+    Ok(StageForecast { refined, interface_faces: faces, transition, hexes })
 }
 
 /// The cells of Method I's layer, and the coarse elements in whose place they are.

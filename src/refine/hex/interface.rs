@@ -3,7 +3,6 @@
 use super::blocks::in_blocks;
 use super::labels::{Label, group_of, label_of};
 use super::skeleton::{Stars, one_way};
-use super::stage::StageMesh;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES_AT;
 use crate::mesh::topology::Side;
@@ -73,9 +72,9 @@ impl<'a> Interface<'a> {
         Ok(Self { hexes, refined, labels, root, materials, kept_by_coarse, nodes, place, shell, stars })
     }
 
-    /// The interface with the labels and the materials of the mesh that its hexes are of.
-    pub(super) fn of_stage(self, mesh: &'a StageMesh) -> Self {
-        Self { labels: &mesh.labels, root: &mesh.root, materials: &mesh.materials, ..self }
+    /// The interface with the labels of its hexes' faces, the input hexes that they are of, and the materials of these.
+    pub(super) fn with(self, labels: &'a [Label], root: &'a [u32], materials: &'a [u32]) -> Self {
+        Self { labels, root, materials, ..self }
     }
 
     /// The material of a hex.

@@ -42,6 +42,7 @@ mod blocks;
 mod couple;
 mod divide;
 mod forecast;
+mod heritage;
 mod input;
 mod interface;
 mod labels;

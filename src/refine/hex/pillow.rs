@@ -94,16 +94,8 @@ pub(super) fn pillow(
     monitor: &dyn Monitor,
 ) -> Result<Pillow, StageError> {
     monitor.checkpoint(PILLOW, 0.0)?;
-    let mut pinches = Pinches::find(interface, monitor)?;
-    let more = pinches.resolve(interface, monitor)?;
-    if !more.is_empty() {
-        return Err(StageError::Conflict(more));
-    }
-    monitor.checkpoint(PILLOW, 0.4)?;
-    interface.kept_by_coarse = kept_by_coarse(positions, interface, &pinches, monitor)?;
+    let (copies, pinched_edges) = separated(positions, interface, monitor)?;
     let interface = &*interface;
-    let ridges = Ridges::new(positions, interface, &pinches, monitor)?;
-    let copies = Copies::new(positions, interface, &pinches, &ridges, monitor)?;
     monitor.checkpoint(PILLOW, 0.8)?;
     let hexes = copies.applied(interface);
     let layer =
@@ -112,7 +104,38 @@ pub(super) fn pillow(
     all.extend_from_slice(positions);
     all.extend_from_slice(&copies.points);
     interface.nodes.iter().zip(&copies.kept).for_each(|(n, &kept)| all[n.index()] = kept);
-    Ok(Pillow { positions: all, hexes, layer, pinched_edges: pinches.len() })
+    Ok(Pillow { positions: all, hexes, layer, pinched_edges })
+}
+
+/// Can the two sides of the interface be separated?
+///
+/// # Errors
+/// As [`pillow`].
+pub(super) fn can_be_separated(
+    positions: &[Point],
+    interface: &mut Interface,
+    monitor: &dyn Monitor,
+) -> Result<(), StageError> {
+    separated(positions, interface, monitor).map(|_| ())
+}
+
+/// Steps 1 to 3: the copies of the nodes of the interface, which learns which side keeps the faces between materials; and
+/// how many pinched edges there are.
+fn separated(
+    positions: &[Point],
+    interface: &mut Interface,
+    monitor: &dyn Monitor,
+) -> Result<(Copies, usize), StageError> {
+    let mut pinches = Pinches::find(interface, monitor)?;
+    let more = pinches.resolve(interface, monitor)?;
+    if !more.is_empty() {
+        return Err(StageError::Conflict(more));
+    }
+    monitor.proceed()?;
+    interface.kept_by_coarse = kept_by_coarse(positions, interface, &pinches, monitor)?;
+    let ridges = Ridges::new(positions, interface, &pinches, monitor)?;
+    let copies = Copies::new(positions, interface, &pinches, &ridges, monitor)?;
+    Ok((copies, pinches.len()))
 }
 
 /// The hex at a face of the interface.

@@ -7,11 +7,15 @@
 //!    all of level 0 is refined, which makes families of everything.
 //! 4. Look at each level's interface (`forecast`). Where it cannot be separated, refine more, and close again.
 
-use super::forecast::{Foreseen, HexForecast, StageForecast, foresee};
+use std::borrow::Cow;
+
+use super::attempt::without_template;
+use super::forecast::{HexForecast, StageForecast, foresee};
+use super::heritage::Heritage;
 use super::options::{Added, Growth, HexOptions, HexRefineError, Method, check_size};
 use super::outline::Outline;
 use super::refinement::HexRefinement;
-use super::stage::{StageMesh, can_be_joined};
+use super::stage::{StageError, StageMesh, can_be_joined};
 use super::trees::Trees;
 use crate::geometry::Point;
 use crate::mesh::HexMesh;
@@ -170,11 +174,12 @@ impl<'a> HexPlan<'a> {
     /// Steps 2 to 4.
     fn settle(&mut self, mut trees: Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
         monitor.checkpoint(CLOSE, 0.0)?;
+        let heritage = Heritage::of_input(&self.input, monitor)?;
         let stages = loop {
             self.close(&mut trees, monitor)?;
             self.group(&mut trees, monitor)?;
             monitor.checkpoint(CLOSE, 0.5)?;
-            match self.foresee(&trees, monitor)? {
+            match self.foresee(&trees, &heritage, monitor)? {
                 Ok(stages) => break stages,
                 Err((number, more)) => {
                     self.may_grow(&trees, (number, &more), TOUCHES)?;
@@ -278,16 +283,20 @@ impl<'a> HexPlan<'a> {
     fn foresee(
         &self,
         trees: &Trees,
+        of_input: &Heritage,
         monitor: &dyn Monitor,
     ) -> Result<Result<Vec<StageForecast>, (usize, Vec<u32>)>, HexRefineError> {
         let mut stages = Vec::new();
         let mut hexes = self.input.hexes.len();
-        let size = (trees.positions().len(), trees.children());
+        let mut heritage = Cow::Borrowed(of_input);
         for number in 0..trees.depth() - 1 {
-            let mut stage = match foresee(trees.level(number), size, self.options.method, monitor)? {
-                Foreseen::Stage(stage) => stage,
-                Foreseen::Conflict(more) => return Ok(Err((number, more))),
+            let (level, within) = (trees.level(number), (trees.positions(), trees.children()));
+            let mut stage = match foresee((level, &heritage), within, self.options.method, monitor) {
+                Ok(stage) => stage,
+                Err(StageError::Conflict(more)) => return Ok(Err((number, more))),
+                Err(error) => return Err(without_template(error)),
             };
+            heritage = Cow::Owned(heritage.inherited(level, trees.children()));
             hexes += stage.hexes;
             stage.hexes = hexes;
             check_size(self.options, number as u8 + 1, hexes as u64)?;

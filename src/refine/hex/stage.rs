@@ -54,6 +54,16 @@ pub struct StageMesh {
 }
 
 impl StageMesh {
+    /// The interface of a set of its hexes.
+    fn interface<'a>(
+        &'a self,
+        refined: &'a [bool],
+        monitor: &dyn Monitor,
+    ) -> Result<Interface<'a>, Cancelled> {
+        let interface = Interface::new(self.positions.len(), &self.hexes, refined, monitor)?;
+        Ok(interface.with(&self.labels, &self.root, &self.materials))
+    }
+
     /// The mesh before the first stage: the input's hexes, at level 0.
     pub fn of_input(positions: Vec<Point>, hexes: Vec<[NodeId; 8]>) -> Self {
         let count = hexes.len();
@@ -174,7 +184,7 @@ fn stage_of(
     monitor: &dyn Monitor,
 ) -> Result<StageResult, StageError> {
     assert_eq!(refined.len(), mesh.hexes.len(), "one entry a hex");
-    let mut interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?.of_stage(mesh);
+    let mut interface = mesh.interface(refined, monitor)?;
     match method {
         Method::One => {
             let mut positions = mesh.positions.clone();
@@ -219,7 +229,7 @@ pub(super) fn can_be_joined(
     refined: &[bool],
     monitor: &dyn Monitor,
 ) -> Result<bool, Cancelled> {
-    let mut interface = Interface::new(mesh.positions.len(), &mesh.hexes, refined, monitor)?.of_stage(mesh);
+    let mut interface = mesh.interface(refined, monitor)?;
     match pillow(&mesh.positions, &mut interface, monitor) {
         Ok(pillow) => Ok(quarters(&pillow, &mesh.octant).is_ok()),
         Err(StageError::Cancelled(cancelled)) => Err(cancelled),

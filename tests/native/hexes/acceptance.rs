@@ -6,7 +6,7 @@ use hexmill::io::{AnyMesh, Format, read};
 use hexmill::mesh::quality::{Certainty, hex_quality};
 use hexmill::mesh::topology::hex_boundary;
 use hexmill::mesh::{HexMesh, Volumes, check_hexes};
-use hexmill::refine::hex::{HexOptions, Method, RefinedHexes, refine_hexes};
+use hexmill::refine::hex::{HexOptions, HexPlan, Method, RefinedHexes, refine_hexes};
 use hexmill::sizing::{Region, Shape, Target};
 
 use super::meshes::{Numbers, RADIUS, around, ball, cubes, cylinder, hull, i_beam, twisted};
@@ -54,6 +54,7 @@ pub fn judged(world: &World, method: Method) -> Judged {
     let options = HexOptions { method, regions: world.regions.clone(), ..HexOptions::default() };
     let refined =
         refine_hexes(&world.input, &options, &Silent).unwrap_or_else(|e| panic!("{}: {e}", world.name));
+    told_before(&world.name, &world.input, &options, &refined);
     let defects = check_hexes(&refined.mesh);
     assert!(defects.is_empty(), "{}, {method:?}: {defects:?}", world.name);
     let quality = hex_quality(&refined.mesh);
@@ -63,6 +64,15 @@ pub fn judged(world: &World, method: Method) -> Judged {
     let mean =
         quality.scaled_jacobian.iter().map(|&j| f64::from(j)).sum::<f64>() / quality.positive.len() as f64;
     Judged { refined, worst, mean }
+}
+
+/// What is made is what the plan has told, unless hexes stayed inside out.
+pub fn told_before(name: &str, input: &HexMesh, options: &HexOptions, refined: &RefinedHexes) {
+    let plan = HexPlan::new(input, options, &Silent).unwrap_or_else(|error| panic!("{name}: {error}"));
+    if refined.added.repairs == 0 {
+        assert_eq!(plan.added(), refined.added, "{name}");
+        assert_eq!(plan.forecast().hexes, refined.mesh.hexes.len(), "{name}");
+    }
 }
 
 impl Judged {

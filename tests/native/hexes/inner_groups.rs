@@ -11,7 +11,7 @@ use hexmill::refine::hex::{HexOptions, Method, refine_hexes};
 use hexmill::sizing::{Region, Target};
 use rayon::prelude::*;
 
-use super::acceptance::{block, random_set};
+use super::acceptance::{block, random_set, told_before};
 use super::meshes::{Numbers, RADIUS, cubes, cylinder};
 
 const METHODS: [Method; 3] = [Method::One, Method::Two, Method::Three];
@@ -66,7 +66,9 @@ fn refine(name: &str, input: &HexMesh, regions: &[Region], method: Method) -> (H
     let regions = regions.iter().map(|region| Region { target: target(region.target), ..region.clone() });
     let options = HexOptions { method, regions: regions.collect(), ..HexOptions::default() };
     let refined = refine_hexes(input, &options, &Silent);
-    let refined = refined.unwrap_or_else(|error| panic!("{name}, {method:?}: {error}")).mesh;
+    let refined = refined.unwrap_or_else(|error| panic!("{name}, {method:?}: {error}"));
+    told_before(&format!("{name}, {method:?}"), input, &options, &refined);
+    let refined = refined.mesh;
     assert_eq!(check_hexes(&refined), [], "{name}, {method:?}");
     let quality = hex_quality(&refined);
     assert!(quality.positive.iter().all(|&sure| sure == Certainty::Positive), "{name}, {method:?}");
