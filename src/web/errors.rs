@@ -5,6 +5,7 @@ use std::fmt::Display;
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 
+use crate::Cancelled;
 use crate::hexing::HexingError;
 use crate::hexing::background::BackgroundError;
 use crate::io::{ReadError, WriteError};
@@ -80,6 +81,12 @@ impl From<ReadError> for Failure {
 impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Self {
         Self::options(error.code, &error)
+    }
+}
+
+impl From<Cancelled> for Failure {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::new(Kind::Cancelled, "cancelled", &cancelled)
     }
 }
 

@@ -5,10 +5,11 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use super::convert::{cells, points, to_object};
 use super::errors::Failure;
+use super::listener::Listener;
 use super::pool::on_pool;
 use crate::geometry::Point;
-use crate::mesh::check::{check_hexes, summary};
-use crate::mesh::quality::hex_quality;
+use crate::mesh::check::{check_hexes_within, summary};
+use crate::mesh::quality::{hex_quality, hex_quality_within};
 use crate::mesh::{FaceGroups, HexMesh, NodeId, mesh_hash};
 
 /// A hex mesh that was made, on its way to JavaScript.
@@ -43,15 +44,19 @@ impl HexArrays {
     /// How well shaped the hexes are: an object with the fields of `HexQuality` in `www/lib/results.ts`.
     ///
     /// # Errors
-    /// None in practice: numbers can always be converted.
+    /// If it was cancelled.
     pub fn quality(&self) -> Result<JsValue, Failure> {
-        to_object(&on_pool(|| hex_quality(&self.mesh).report()))
+        let quality = on_pool(|| hex_quality_within(&self.mesh, &Listener).map(|quality| quality.report()))?;
+        to_object(&quality)
     }
 
     /// What is wrong with the mesh: one line for each kind of defect.
-    pub fn defects(&self) -> Vec<String> {
-        let defects = on_pool(|| check_hexes(&self.mesh));
-        summary(&defects).iter().map(ToString::to_string).collect()
+    ///
+    /// # Errors
+    /// If it was cancelled.
+    pub fn defects(&self) -> Result<Vec<String>, Failure> {
+        let defects = on_pool(|| check_hexes_within(&self.mesh, &Listener))?;
+        Ok(summary(&defects).iter().map(ToString::to_string).collect())
     }
 }
 

@@ -9,7 +9,7 @@ import type { TeamSettings } from './team.js';
 /** How long a cancelled call may take to stop before its workers are discarded, in milliseconds. */
 const GRACE = {
   /** Where it has been asked to. */
-  asked: 100,
+  asked: 60,
   /** Where it cannot be asked, and only may happen to end. */
   unasked: 20,
 };

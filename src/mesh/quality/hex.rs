@@ -21,7 +21,7 @@ use crate::geometry::Point;
 use crate::geometry::lanes::{LANES, Vector, Vectors, level};
 use crate::mesh::numbering::hex::{EDGE_BETWEEN, EDGES, NEIGHBOURS};
 use crate::mesh::{HexMesh, hex_volume};
-use crate::parallel;
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// Measures of each hex of a mesh, in order of hexes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,16 +48,27 @@ pub struct HexQuality {
 /// assert_eq!((quality.scaled_jacobian[0], quality.aspect[0], quality.total_volume), (1.0, 2.0, 2.0));
 /// ```
 pub fn hex_quality(mesh: &HexMesh) -> HexQuality {
+    hex_quality_within(mesh, &Silent).expect("nobody stops it")
+}
+
+/// As [`hex_quality`], told by a monitor when to stop.
+///
+/// # Errors
+/// If the monitor stops it.
+pub fn hex_quality_within(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<HexQuality, Cancelled> {
     let count = mesh.hexes.len();
     let corners = |h: usize| mesh.hexes[h].map(|n| mesh.positions[n.index()]);
-    let volumes: Vec<f64> = parallel::collect(count, |h| hex_volume(&corners(h)));
-    HexQuality {
-        scaled_jacobian: parallel::collect(count, |h| scaled_jacobian(&corners(h)) as f32),
-        aspect: parallel::collect(count, |h| aspect(&corners(h)).min(f64::from(f32::MAX)) as f32),
-        positive: parallel::collect(count, |h| is_positive(&corners(h))),
+    let measured = |measure: &(dyn Fn(&[Point; 8]) -> f64 + Sync)| {
+        parallel::try_collect(count, monitor, |h| measure(&corners(h)) as f32)
+    };
+    let volumes: Vec<f64> = parallel::try_collect(count, monitor, |h| hex_volume(&corners(h)))?;
+    Ok(HexQuality {
+        scaled_jacobian: measured(&scaled_jacobian)?,
+        aspect: measured(&|corners| aspect(corners).min(f64::from(f32::MAX)))?,
+        positive: parallel::try_collect(count, monitor, |h| is_positive(&corners(h)))?,
         total_volume: volumes.iter().sum(),
         volume: volumes.into_iter().map(|v| v as f32).collect(),
-    }
+    })
 }
 
 /// The least scaled Jacobian of the eight corners, which are in the order of VTK_HEXAHEDRON.

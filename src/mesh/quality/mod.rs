@@ -11,7 +11,9 @@ mod second_order;
 mod statistics;
 
 pub use bernstein::{Certainty, JacobianBound, is_positive, min_jacobian_bound};
-pub use hex::{HexQuality, HexQualityReport, corner_scaled_jacobians, hex_quality, scaled_jacobian};
+pub use hex::{
+    HexQuality, HexQualityReport, corner_scaled_jacobians, hex_quality, hex_quality_within, scaled_jacobian,
+};
 pub use quad::{QuadQuality, QualityReport, quad_quality};
 pub use second_order::second_order_jacobian;
 pub use statistics::{Distribution, Histogram, Summary};
