@@ -105,6 +105,22 @@ impl<'a> Constraints<'a> {
         Self { is_bounded: true, ..self }
     }
 
+    /// The same, and those of the nodes for which `stays` holds that are on curved patches and curves stay where they are.
+    pub(crate) fn fixed_where_curved(mut self, stays: impl Fn(NodeId) -> bool) -> Self {
+        let Some(surface) = self.surface else { return self };
+        for (n, freedom) in self.freedom.iter_mut().enumerate() {
+            let is_curved = match *freedom {
+                Freedom::Patch(patch) => !surface.is_planar(patch),
+                Freedom::Curve(curve) => !surface.is_straight(curve),
+                Freedom::Inside | Freedom::Fixed => false,
+            };
+            if is_curved && stays(NodeId::new(n)) {
+                *freedom = Freedom::Fixed;
+            }
+        }
+        self
+    }
+
     /// Is the node a corner?
     pub fn is_fixed(&self, node: NodeId) -> bool {
         self.freedom[node.index()] == Freedom::Fixed

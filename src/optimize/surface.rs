@@ -184,6 +184,16 @@ impl BoundarySurface {
         self.ends_at[curve as usize].contains(&patch)
     }
 
+    /// Is a patch in a plane?
+    pub(super) fn is_planar(&self, patch: u32) -> bool {
+        self.patches[patch as usize].constant.is_some()
+    }
+
+    /// Is a curve straight?
+    pub(super) fn is_straight(&self, curve: u32) -> bool {
+        self.curves[curve as usize].constant.is_some()
+    }
+
     /// The point of a curve nearest to `p`.
     pub(super) fn closest_on_curve(&self, curve: u32, p: Point) -> Point {
         self.curves[curve as usize].closest(p)

@@ -72,7 +72,7 @@ fn smoothing(method: Method, is_inside: bool) -> OptimizeOptions {
 
 /// Untangles and smooths some hexes of a stage, whose faces tell what their nodes are kept on: nothing, if there are none.
 /// Those that stay inverted.
-fn relax(
+pub(super) fn relax(
     stage: &StageResult,
     (local, faces): (&mut Local, Option<HexFaces>),
     surface: &BoundarySurface,

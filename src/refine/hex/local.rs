@@ -22,6 +22,8 @@ pub(super) struct Local {
     pub(super) hex_ids: Vec<HexId>,
     /// For each node: may it move? All hexes of the mesh at such a node are here.
     movable: Vec<bool>,
+    /// For each node: does it stay where the surface is curved? Empty if none does.
+    stays_if_curved: Vec<bool>,
 }
 
 impl Local {
@@ -39,16 +41,23 @@ impl Local {
         rings: usize,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let hexes = &stage.mesh.hexes;
-        let mut near = vec![false; stage.mesh.positions.len()];
-        tangled.iter().flat_map(|h| hexes[h.index()]).for_each(|n| near[n.index()] = true);
-        for _ in 0..rings {
-            let ring =
-                parallel::try_filter(hexes.len(), monitor, |h| hexes[h].iter().any(|n| near[n.index()]))?;
-            ring.iter().flat_map(|&h| hexes[h as usize]).for_each(|n| near[n.index()] = true);
-        }
+        let mut near = near(stage, tangled, rings, monitor)?;
         stage.layer_nodes.iter().for_each(|n| near[n.index()] = true);
         Self::of_movable(stage, &near, monitor)
+    }
+
+    /// The hexes at nodes up to `rings` of hexes away from those of `poor`, which may move; where the surface is curved only
+    /// if they are the layer's.
+    pub(super) fn beside(
+        stage: &StageResult,
+        poor: &[HexId],
+        rings: usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let near = near(stage, poor, rings, monitor)?;
+        let local = Self::of_movable(stage, &near, monitor)?;
+        let is_of_layer = |n: &NodeId| stage.layer_nodes.binary_search(n).is_ok();
+        Ok(Self { stays_if_curved: local.nodes.iter().map(|n| !is_of_layer(n)).collect(), ..local })
     }
 
     fn of_movable(stage: &StageResult, moves: &[bool], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
@@ -94,6 +103,7 @@ impl Local {
             positions: nodes.iter().map(|n| positions[n.index()]).collect(),
             hexes: parallel::try_collect(hex_ids.len(), monitor, |k| nodes_of(k).map(|n| number[n]))?,
             movable: nodes.iter().map(|n| moves[n.index()]).collect(),
+            stays_if_curved: Vec::new(),
             nodes,
             hex_ids,
         })
@@ -129,7 +139,11 @@ impl Local {
         let patch = |k: usize| surface.patch_of(kinds[k], middle(&quads[k])).expect("faces keep their kinds");
         let patches = parallel::try_collect(quads.len(), monitor, patch)?;
         let boundary = QuadMesh { positions: self.positions.clone(), quads };
-        Ok(Constraints::of_boundary(&boundary, &patches, surface))
+        let constraints = Constraints::of_boundary(&boundary, &patches, surface);
+        if self.stays_if_curved.is_empty() {
+            return Ok(constraints);
+        }
+        Ok(constraints.fixed_where_curved(|node| self.stays_if_curved[node.index()]))
     }
 
     /// Untangles and smooths the hexes.
@@ -178,4 +192,21 @@ impl Local {
             positions[node.index()] = *point;
         }
     }
+}
+
+/// The nodes up to `rings` of hexes away from those of some hexes.
+fn near(
+    stage: &StageResult,
+    of: &[HexId],
+    rings: usize,
+    monitor: &dyn Monitor,
+) -> Result<Vec<bool>, Cancelled> {
+    let hexes = &stage.mesh.hexes;
+    let mut near = vec![false; stage.mesh.positions.len()];
+    of.iter().flat_map(|h| hexes[h.index()]).for_each(|n| near[n.index()] = true);
+    for _ in 0..rings {
+        let ring = parallel::try_filter(hexes.len(), monitor, |h| hexes[h].iter().any(|n| near[n.index()]))?;
+        ring.iter().flat_map(|&h| hexes[h as usize]).for_each(|n| near[n.index()] = true);
+    }
+    Ok(near)
 }

@@ -56,6 +56,7 @@ mod pillow;
 mod pinch;
 mod pipeline;
 mod plan;
+mod poor;
 mod quarters;
 mod refinement;
 mod regions;

@@ -2,7 +2,8 @@
 //!
 //! 1. Decide what to refine and close the trees ([`HexPlan`]).
 //! 2. Level by level, coarse to fine, on the positions as they are: refine what the trees refine, with the
-//!    transitions of the method (`stage`), then untangle and smooth these (`attempt`).
+//!    transitions of the method (`stage`), then untangle and smooth these (`attempt`), and mend what that leaves
+//!    poor (`poor`).
 //! 3. Where an interface cannot be separated, or a hex stays inside out, refine the coarse elements there too and go back
 //!    to the coarsest level that this changes. Each time the trees grow, so that this ends; it is given up after
 //!    [`MOST_RESTARTS`].
@@ -17,6 +18,7 @@ use super::attempt::{Attempt, attempt};
 use super::input::boundary_surface;
 use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size};
 use super::plan::{Decided, HexPlan, TOUCHES};
+use super::poor::mend_poor;
 use super::stage::{NO_ELEMENT, StageMesh, StageReport, StageResult};
 use crate::geometry::Point;
 use crate::mesh::HexMesh;
@@ -131,6 +133,7 @@ impl HexPlan<'_> {
         let mut attempt = attempt(mesh, &refined, method, surface, monitor)?;
         if let Attempt::Made(next) = &mut attempt {
             check_size(self.options, number as u8 + 1, next.mesh.hexes.len() as u64)?;
+            mend_poor(next, mesh, surface, monitor)?;
             number_as_trees(next, mesh, &outline.refined[number], outline.children);
         }
         Ok(Some(attempt))
