@@ -205,7 +205,7 @@ pub fn random_on_beam(seed: u64, of: u64) -> World {
         input,
         regions,
         boundary: Boundary::Planar,
-        least: [0.63, 0.175],
+        least: [0.63, 0.195],
     }
 }
 

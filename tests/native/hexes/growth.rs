@@ -84,7 +84,7 @@ fn what_is_told_is_what_is_refused() {
     let sets = [
         touching(),
         vec![block([1.0; 3], [3.0; 3], 1)],
-        vec![block([1.0; 3], [3.0; 3], 3)],
+        vec![block([1.2; 3], [1.4; 3], 3)],
         vec![block([0.0; 3], [1.0; 3], 2), block([1.0; 3], [2.0; 3], 1)],
     ];
     for (regions, method) in sets.iter().flat_map(|regions| METHODS.map(|method| (regions, method))) {
