@@ -21,10 +21,10 @@ import type { Project } from './project.js';
 const BUDGETS = {
   mesher: 460_000,
   'mesher-threads': 460_000,
-  hexes: 535_000,
-  'hexes-threads': 535_000,
-  solids: 900_000,
-  'solids-threads': 900_000,
+  hexes: 550_000,
+  'hexes-threads': 550_000,
+  solids: 910_000,
+  'solids-threads': 910_000,
 };
 
 /** A cancelled call has to leave the processor to the next within this time, in milliseconds. */
