@@ -24,6 +24,10 @@ const POOR: f64 = 0.2;
 /// It is also below this share of that of the hex which it came from: what is poor because the input is stays as it is.
 const SHARE: f64 = 0.5;
 
+/// Where more than one in so many hexes of the transition is poor, so are the hexes around: thin ones stay thin, and
+/// lifting the worst of them would cost all others more.
+const FEW: usize = 8;
+
 /// Rings of hexes around the poor ones whose nodes move.
 const RINGS: usize = 2;
 
@@ -35,7 +39,8 @@ pub(super) fn mend_poor(
     monitor: &dyn Monitor,
 ) -> Result<(), HexRefineError> {
     let poor = poor_hexes(stage, before, monitor)?;
-    if poor.is_empty() {
+    let transition = stage.mesh.hexes.len() - stage.first_transition;
+    if poor.is_empty() || FEW * poor.len() > transition {
         return Ok(());
     }
     let options = OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 4, ..OptimizeOptions::default() };
