@@ -52,16 +52,36 @@ impl FaceKind {
 pub struct BoundarySurface {
     patches: Vec<Piece>,
     curves: Vec<Piece>,
-    /// The patches of each kind, ascending.
-    patches_of: BTreeMap<FaceKind, Vec<u32>>,
+    /// The triangles of each kind, where there are several.
+    of_kind: BTreeMap<FaceKind, PatchTriangles>,
     /// The curve between two patches, the lesser first.
     curve_between: BTreeMap<[u32; 2], u32>,
     /// The curve where materials meet, by the patches there, ascending.
     curve_among: BTreeMap<Vec<u32>, u32>,
     /// The patches that end at each curve.
     ends_at: Vec<Vec<u32>>,
-    /// All triangles, and the patch of each.
-    triangles: Option<(NearestTriangle, Vec<u32>)>,
+    /// All triangles.
+    all: Option<PatchTriangles>,
+}
+
+/// Triangles, and the patch of each.
+#[derive(Debug)]
+struct PatchTriangles {
+    nearest: NearestTriangle,
+    patch: Vec<u32>,
+}
+
+impl PatchTriangles {
+    /// Where two are equally near the first counts.
+    fn new(triangles: impl IntoIterator<Item = (u32, [Point; 3])>) -> Self {
+        let (patch, triangles): (Vec<u32>, Vec<[Point; 3]>) = triangles.into_iter().unzip();
+        Self { nearest: NearestTriangle::new(triangles), patch }
+    }
+
+    /// The patch nearest to `p`.
+    fn patch_at(&self, p: Point) -> Option<u32> {
+        self.nearest.nearest(p).map(|nearest| self.patch[nearest.facet])
+    }
 }
 
 impl BoundarySurface {
@@ -113,22 +133,26 @@ impl BoundarySurface {
         let patch_of_face = sets.numbers();
         monitor.proceed()?;
         let patch_count = patch_of_face.iter().max().map_or(0, |&p| p as usize + 1);
-        let mut patches_of: BTreeMap<FaceKind, Vec<u32>> = BTreeMap::new();
-        for (f, &patch) in patch_of_face.iter().enumerate() {
-            let patches = patches_of.entry(kind(f)).or_default();
-            if patches.last().is_none_or(|&last| last < patch) {
-                patches.push(patch);
-            }
-        }
         let mut by_patch = vec![Vec::new(); patch_count];
-        let (mut triangles, mut patch_of_triangle) = (Vec::new(), Vec::new());
+        let mut by_kind: BTreeMap<FaceKind, Vec<(u32, [Point; 3])>> = BTreeMap::new();
+        let mut triangles = Vec::new();
         for (f, &patch) in patch_of_face.iter().enumerate() {
             let corners = corners(f);
             PatchFacet::of_face(&corners, &mut by_patch[patch as usize]);
-            triangles.extend(triangles_of(&corners));
-            patch_of_triangle.resize(triangles.len(), patch);
+            let first = triangles.len();
+            triangles.extend(triangles_of(&corners).map(|t| (patch, t)));
+            by_kind.entry(kind(f)).or_default().extend_from_slice(&triangles[first..]);
         }
         monitor.proceed()?;
+        if by_kind.len() == 1 {
+            by_kind.clear();
+        }
+        let mut of_kind = BTreeMap::new();
+        for (kind, mut triangles) in by_kind {
+            monitor.proceed()?;
+            triangles.sort_by_key(|&(patch, _)| patch);
+            of_kind.insert(kind, PatchTriangles::new(triangles));
+        }
         let mut by_pair: BTreeMap<[u32; 2], Vec<[Point; 2]>> = BTreeMap::new();
         let mut by_set: BTreeMap<Vec<u32>, Vec<[Point; 2]>> = BTreeMap::new();
         for e in ridges {
@@ -150,23 +174,21 @@ impl BoundarySurface {
         let curves =
             by_pair.into_values().chain(by_set.into_values()).map(|edges| told(Piece::curve(&edges)));
         let curves = curves.collect::<Result<Vec<Piece>, _>>()?;
-        let triangles = Some((NearestTriangle::new(triangles), patch_of_triangle));
-        Ok(Self { patches, curves, patches_of, curve_between, curve_among, ends_at, triangles })
+        let all = Some(PatchTriangles::new(triangles));
+        Ok(Self { patches, curves, of_kind, curve_between, curve_among, ends_at, all })
     }
 
     /// The patch nearest to `p`; `None` if the surface has no faces.
     pub fn patch_at(&self, p: Point) -> Option<u32> {
-        let (nearest, patch) = self.triangles.as_ref()?;
-        Some(patch[nearest.nearest(p)?.facet])
+        self.all.as_ref()?.patch_at(p)
     }
 
     /// The patch nearest to `p` of those of a kind; `None` if there is none.
     pub fn patch_of(&self, kind: FaceKind, p: Point) -> Option<u32> {
-        if self.patches_of.len() == 1 {
+        if self.of_kind.is_empty() {
             return self.patch_at(p);
         }
-        let patches = self.patches_of.get(&kind)?.iter().copied();
-        patches.min_by(|&a, &b| self.distance_to_patch(a, p).total_cmp(&self.distance_to_patch(b, p)))
+        self.of_kind.get(&kind)?.patch_at(p)
     }
 
     /// The curve between two patches, or within one.

@@ -111,11 +111,14 @@ fn cancelled_work_stops_and_leaves_the_nodes() {
     let start: Vec<Point> = input.iter().map(|p| *p + 0.6 * noise.point()).collect();
     let constraints = Constraints::none(start.len());
     let movable = vec![true; start.len()];
+    // Of two threads each may ask before either has heard the answer.
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
     let run = |patience| {
         let mut positions = start.clone();
         let monitor = Impatient::new(patience);
-        let done =
-            optimize(&mut positions, &hexes, &movable, &constraints, &OptimizeOptions::default(), &monitor);
+        let options = OptimizeOptions::default();
+        let done = one_thread
+            .install(|| optimize(&mut positions, &hexes, &movable, &constraints, &options, &monitor));
         (done, positions, monitor.questions.into_inner())
     };
     let (done, _, questions) = run(usize::MAX);
