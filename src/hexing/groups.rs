@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use crate::mesh::topology::HexFaces;
-use crate::mesh::{FaceGroups, HexMesh, NodeId, TagSet, Tags};
+use crate::mesh::{FaceGroups, Group, HexMesh, NodeId, TagSet, Tags};
 use crate::solid::SurfaceId;
 
 /// Boundary faces by their hex and their number there, ascending, each with the surface that it stands for. `faces` are
@@ -25,9 +25,8 @@ pub fn surface_groups(sides: &[(u32, SurfaceId)]) -> Option<FaceGroups> {
     let mut sets = Vec::new();
     let of_element = sides.iter().map(|&(_, surface)| {
         *set_of.entry(surface).or_insert_with(|| {
-            let number = u64::from(surface.0) + 1;
-            let groups = vec![format!("surface-{number}")];
-            sets.push(TagSet { groups, number: i32::try_from(number).ok(), ..TagSet::default() });
+            let number = i64::from(surface.0) + 1;
+            sets.push(named("surface", number));
             sets.len() as u32 - 1
         })
     });
@@ -38,10 +37,11 @@ pub fn surface_groups(sides: &[(u32, SurfaceId)]) -> Option<FaceGroups> {
 
 /// A group of hexes for each of so many bodies, named `body-1` for the first, from the body of each hex.
 pub fn body_tags(bodies: usize, body_of: Vec<u32>) -> Tags {
-    let set = |body: usize| TagSet {
-        groups: vec![format!("body-{}", body + 1)],
-        number: i32::try_from(body + 1).ok(),
-        ..TagSet::default()
-    };
-    Tags { sets: (0..bodies).map(set).collect(), of_element: body_of }
+    Tags { sets: (1..=bodies as i64).map(|number| named("body", number)).collect(), of_element: body_of }
+}
+
+/// The tags of a group that is named and numbered.
+fn named(what: &str, number: i64) -> TagSet {
+    let group = Group::new(format!("{what}-{number}"), number);
+    TagSet { groups: vec![group], number: Some(number), ..TagSet::default() }
 }

@@ -1,7 +1,7 @@
 //! The kinds of cells that files hold, and how each format names them.
 
 /// A kind of cell that is read. All other kinds are refused by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum CellKind {
     /// A point or several, or nothing: skipped.
     Skipped,

@@ -177,7 +177,7 @@ impl<'a> CellView<'a> {
 
     /// The number of the tag set of each cell, then of each face that is in a group; nothing if there are no
     /// tags. Cells and faces are numbered apart.
-    pub fn numbers(&self) -> Vec<i32> {
+    pub fn numbers(&self) -> Vec<i64> {
         let mut numbers = cell_numbers(self.tags);
         if !self.groups.is_empty() {
             numbers.resize(self.cells.len(), 0);

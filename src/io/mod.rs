@@ -19,6 +19,7 @@ mod cell_view;
 mod document;
 mod error;
 mod format;
+pub(crate) mod losses;
 mod matched_faces;
 mod name_budget;
 mod node_numbers;
@@ -34,6 +35,7 @@ mod vtk_cells;
 pub use document::{AnyMesh, Document};
 pub use error::{ReadError, WriteError};
 pub use format::Format;
+pub use losses::losses;
 pub use sniff::detect;
 
 /// Reads a mesh from the bytes of a file.

@@ -1,6 +1,6 @@
 //! How much memory the names of groups may take.
 
-use crate::mesh::TagSet;
+use crate::mesh::{Group, TagSet};
 
 /// Names may take this many bytes for each byte of the file. Every set of names holds copies of its
 /// names, so without a bound a small file could ask for memory that grows as the square of its size.
@@ -22,9 +22,10 @@ impl NameBudget {
 
     /// Takes what one more set needs; false if there is not so much left.
     pub fn take(&mut self, set: &TagSet) -> bool {
-        let names = set.groups.iter().chain(&set.object).chain(&set.material);
+        let groups = set.groups.iter().map(|group| &group.name);
+        let names = groups.chain(&set.object).chain(&set.material);
         // Each name is held twice: to find the set, and in the set.
-        let bytes: usize = names.map(|name| 2 * (name.len() + size_of::<String>())).sum();
+        let bytes: usize = names.map(|name| 2 * (name.len() + size_of::<Group>())).sum();
         let left = self.left.checked_sub(bytes);
         self.left = left.unwrap_or(self.left);
         left.is_some()

@@ -7,7 +7,7 @@ use super::refusal::{code, refuse};
 use super::tag_numbers::Names;
 use super::{Format, ReadError};
 use crate::mesh::topology::Side;
-use crate::mesh::{FaceGroups, TagSet, Tags};
+use crate::mesh::{FaceGroups, Group, TagSet, Tags};
 
 /// The tags of the cells of a file, of any kind, in the file's order.
 #[derive(Default)]
@@ -15,6 +15,8 @@ pub(super) struct CellTags {
     sets: Vec<TagSet>,
     index_of: HashMap<TagSet, u32>,
     of_cell: Vec<u32>,
+    /// The sets that are made of several others.
+    unions: HashMap<Vec<u32>, u32>,
     budget: NameBudget,
 }
 
@@ -33,7 +35,7 @@ impl CellTags {
             let of_face = is_face(cell);
             let index = *index_of_number.entry((number, of_face)).or_insert_with(|| {
                 tags.index(named.get(number, of_face).cloned().unwrap_or_else(|| TagSet {
-                    number: i32::try_from(number).ok().filter(|&n| n != 0),
+                    number: Some(number).filter(|&n| n != 0),
                     ..TagSet::default()
                 }))
             });
@@ -83,7 +85,6 @@ impl CellTags {
     /// # Errors
     /// If the names of all sets take more memory than the file is worth.
     pub fn of_sides(&mut self, cells: &[(Side, u32)], format: Format) -> Result<FaceGroups, ReadError> {
-        let mut union_of: HashMap<Vec<u32>, u32> = HashMap::new();
         let (mut sides, mut sets, mut here) = (Vec::new(), Vec::new(), Vec::new());
         for same in cells.chunk_by(|a, b| a.0 == b.0) {
             here.clear();
@@ -94,21 +95,26 @@ impl CellTags {
             let set = match here.as_slice() {
                 [] => continue,
                 &[set] => set,
-                several => match union_of.get(several) {
-                    Some(&set) => set,
-                    None => {
-                        let set =
-                            self.intern(union(several.iter().map(|&s| &self.sets[s as usize])), format)?;
-                        union_of.insert(several.to_vec(), set);
-                        set
-                    }
-                },
+                several => self.union_of(several, format)?,
             };
             sides.push(same[0].0);
             sets.push(set);
         }
         let tags = self.in_order_of_use(sets.into_iter().map(Some));
         Ok(FaceGroups::new(sides, tags).expect("sides ascend, each with a set"))
+    }
+
+    /// The index of the set that says what several do, which is added unless it is there.
+    ///
+    /// # Errors
+    /// If the names of all sets take more memory than the file is worth.
+    pub fn union_of(&mut self, several: &[u32], format: Format) -> Result<u32, ReadError> {
+        if let Some(&set) = self.unions.get(several) {
+            return Ok(set);
+        }
+        let set = self.intern(union(several.iter().map(|&s| &self.sets[s as usize])), format)?;
+        self.unions.insert(several.to_vec(), set);
+        Ok(set)
     }
 
     /// What the tags of the given cells are called, each once, in order of first use: their groups, or else their number.
@@ -120,7 +126,8 @@ impl CellTags {
             }
             let set = &self.sets[*set as usize];
             let number = set.number.filter(|_| set.groups.is_empty()).map(|number| number.to_string());
-            names.extend(set.groups.iter().cloned().chain(number).filter(|name| known.insert(name.clone())));
+            let groups = set.groups.iter().map(Group::to_string);
+            names.extend(groups.chain(number).filter(|name| known.insert(name.clone())));
         }
         names
     }
@@ -142,15 +149,22 @@ impl CellTags {
     }
 }
 
-/// What several sets say together: all groups, and the first object, material and number.
+/// What several sets say together: all groups, and the first object, material and number. Further numbers are of groups
+/// without names.
 fn union<'a>(sets: impl Iterator<Item = &'a TagSet>) -> TagSet {
     let mut union = TagSet::default();
     let mut known = HashSet::new();
     for set in sets {
         union.object = union.object.or_else(|| set.object.clone());
         union.material = union.material.or_else(|| set.material.clone());
+        let is_groups = |number: i64| set.groups.iter().any(|group| group.number == Some(number));
+        let nameless =
+            set.number.filter(|&number| union.number.is_some_and(|u| u != number) && !is_groups(number));
         union.number = union.number.or(set.number);
-        union.groups.extend(set.groups.iter().filter(|group| known.insert(*group)).cloned());
+        let nameless = nameless.map(|number| Group::new("", number));
+        union.groups.extend(
+            nameless.into_iter().chain(set.groups.iter().cloned()).filter(|g| known.insert(g.clone())),
+        );
     }
     union
 }

@@ -33,7 +33,7 @@ pub use orientation::{InvertedHexes, orient_hexes};
 pub use polygon::{Features, PolygonMesh};
 pub use quad::QuadMesh;
 pub use second_order::{SecondOrder, SecondOrderHex};
-pub use tags::{TagSet, Tags};
+pub use tags::{Group, TagSet, Tags};
 pub use topology::Edges;
 pub use volume::{Volumes, hex_volume};
 pub use weld::first_of_same;

@@ -1,16 +1,55 @@
 //! Names that a file gives to its elements: object, groups, material.
 
+/// A group of elements, by its name, its number or both.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Group {
+    /// Its name; empty if it is known by its number alone.
+    pub name: String,
+    /// The number that the file gives to the name, as an MSH file does: `None` where it gives none.
+    pub number: Option<i64>,
+}
+
+impl Group {
+    /// A group with a name and a number.
+    pub fn new(name: impl Into<String>, number: i64) -> Self {
+        Self { name: name.into(), number: Some(number) }
+    }
+}
+
+impl From<String> for Group {
+    fn from(name: String) -> Self {
+        Self { name, number: None }
+    }
+}
+
+impl From<&str> for Group {
+    fn from(name: &str) -> Self {
+        name.to_owned().into()
+    }
+}
+
+/// The group in words: its name, or else its number.
+impl std::fmt::Display for Group {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.number.filter(|_| self.name.is_empty()) {
+            Some(number) => write!(f, "{number}"),
+            None => f.write_str(&self.name),
+        }
+    }
+}
+
 /// What a file says of one set of elements.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct TagSet {
     /// OBJ `o`.
     pub object: Option<String>,
     /// OBJ `g` (there may be several), MSH physical groups, INP element sets.
-    pub groups: Vec<String>,
+    pub groups: Vec<Group>,
     /// OBJ `usemtl`.
     pub material: Option<String>,
-    /// MEDIT reference, MSH physical number, VTU `Tag`.
-    pub number: Option<i32>,
+    /// The one number of an element where a format has one: MEDIT reference, VTU `Tag`; of MSH the number of the first
+    /// physical group. If none of `groups` has it, it is that of one more group, which has no name.
+    pub number: Option<i64>,
 }
 
 /// The tag set of each element. `of_element` is empty when no element is tagged; else it has one

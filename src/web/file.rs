@@ -1,8 +1,12 @@
 //! Files that JavaScript gave.
 
+use std::collections::BTreeMap;
+
 use super::errors::Failure;
 use super::pool::on_pool;
+use crate::io::losses::losses_of;
 use crate::io::{self, Document, Format};
+use crate::mesh::{FaceGroups, Tags};
 
 /// What a file of the named format holds; without a name the content tells the format.
 ///
@@ -11,6 +15,12 @@ use crate::io::{self, Document, Format};
 pub(super) fn read(bytes: &[u8], format: Option<String>) -> Result<Document, Failure> {
     let format = format.map_or_else(|| Ok(io::detect(bytes)?), |name| format_named(&name))?;
     Ok(on_pool(|| io::read(bytes, format))?)
+}
+
+/// What files of each format cannot say of groups, by the formats' names; formats that keep all are left out.
+pub(super) fn losses(tags: &Tags, groups: Option<&FaceGroups>) -> BTreeMap<&'static str, Vec<String>> {
+    let of_formats = Format::ALL.iter().map(|&format| (format.name(), losses_of(tags, groups, format)));
+    of_formats.filter(|(_, losses)| !losses.is_empty()).collect()
 }
 
 /// The format of a name that JavaScript gave.

@@ -1,5 +1,6 @@
 //! A hex mesh that JavaScript loaded or had made: the input of refinement.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use js_sys::{Float64Array, Uint32Array};
@@ -49,6 +50,7 @@ struct Info {
     grouped_faces: usize,
     dropped_faces: usize,
     dropped_arrays: Vec<String>,
+    losses: BTreeMap<&'static str, Vec<String>>,
     groups: Vec<Group>,
     /// Null for a mesh without hexes.
     quality: Option<HexQualityReport>,
@@ -60,13 +62,23 @@ struct Info {
 #[derive(Serialize)]
 struct Group {
     names: Vec<String>,
-    number: Option<i32>,
+    /// The number of each name.
+    numbers: Vec<Option<f64>>,
+    number: Option<f64>,
 }
 
 impl From<&TagSet> for Group {
     fn from(set: &TagSet) -> Self {
-        let names = set.groups.iter().chain(&set.object).chain(&set.material);
-        Self { names: names.cloned().collect(), number: set.number }
+        // Numbers of JavaScript hold all that files have, but for some beyond 2^53.
+        let (mut names, mut numbers) = (Vec::new(), Vec::new());
+        for group in &set.groups {
+            names.push(group.name.clone());
+            numbers.push(group.number.map(|number| number as f64));
+        }
+        let others = set.object.iter().chain(&set.material);
+        names.extend(others.cloned());
+        numbers.resize(names.len(), None);
+        Self { names, numbers, number: set.number.map(|number| number as f64) }
     }
 }
 
@@ -172,6 +184,7 @@ impl Info {
             grouped_faces: mesh.groups.sides().len(),
             dropped_faces: *dropped_faces,
             dropped_arrays: dropped_arrays.clone(),
+            losses: file::losses(&mesh.tags, Some(&mesh.groups)),
             groups: mesh.groups.tags().sets.iter().map(Group::from).collect(),
             quality: hex_quality(mesh).report(),
             defects: summary(&defects).iter().map(ToString::to_string).collect(),

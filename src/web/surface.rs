@@ -1,5 +1,6 @@
 //! A surface that JavaScript loaded: the input of refinement.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use js_sys::{Float64Array, Uint32Array};
@@ -37,6 +38,7 @@ struct Info {
     #[serde(flatten)]
     extent: Extent,
     dropped_arrays: Vec<String>,
+    losses: BTreeMap<&'static str, Vec<String>>,
     /// One line for each kind of defect.
     defects: Vec<String>,
 }
@@ -117,6 +119,7 @@ impl Info {
             polygons: faces_of(|n| n > 4),
             extent: Extent::of(&mesh.positions, &edges.ends),
             dropped_arrays: dropped_arrays.clone(),
+            losses: file::losses(&mesh.tags, None),
             defects: summary(&check_polygons(mesh)).iter().map(ToString::to_string).collect(),
         }
     }

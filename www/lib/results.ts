@@ -1,3 +1,5 @@
+import type { OutputFormat } from './options.js';
+
 /** What is known of a loaded surface. Lengths are in model units. */
 export interface SurfaceInfo {
   nodes: number;
@@ -22,6 +24,8 @@ export interface SurfaceInfo {
   hash: string;
   /** Arrays of a VTU or legacy VTK file that are no tags, and were left out. */
   droppedArrays: string[];
+  /** What files cannot say of the surface's groups, by format; a format that keeps all of it is left out. */
+  losses: Partial<Record<OutputFormat, string[]>>;
   /** What is wrong with the surface, in words; at most the first hundred. */
   defects: string[];
 }
@@ -92,8 +96,13 @@ export interface HexInfo {
   droppedFaces: number;
   /** Arrays of a VTU or legacy VTK file that are no tags, and were left out. */
   droppedArrays: string[];
-  /** The groups of faces, by their names and the number that the file gave to them. */
-  groups: { names: string[]; number: number | null }[];
+  /** What files cannot say of the mesh's groups, by format; a format that keeps all of it is left out. */
+  losses: Partial<Record<OutputFormat, string[]>>;
+  /**
+   * The groups of faces: the names of each and their numbers, where the file gave any (a group with a number alone has the
+   * name ''), and the one number of formats that have one a face.
+   */
+  groups: { names: string[]; numbers: (number | null)[]; number: number | null }[];
   /** A fingerprint of nodes and hexes: the same as that of `RefinedHexes`. */
   hash: string;
   /** How well shaped the hexes are; null where there are none. */

@@ -106,7 +106,12 @@ fn set_material(tags: &Tags, set: u32) -> Value {
 }
 
 fn name(set: &TagSet) -> String {
-    if has_no_names(set) { format!("tag {}", set.number.unwrap_or(0)) } else { labels(set).join(", ") }
+    if has_no_names(set) {
+        return format!("tag {}", set.number.unwrap_or(0));
+    }
+    // The number of a set with names says no more than these.
+    let words = labels(set).into_iter().filter(|label| !label.name.is_empty() || label.number != set.number);
+    words.map(|label| label.to_string()).collect::<Vec<String>>().join(", ")
 }
 
 /// A dull material that is seen from both sides.

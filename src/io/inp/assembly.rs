@@ -13,7 +13,7 @@ use crate::io::cell_kind::CellKind;
 use crate::io::refusal::{code, refuse};
 use crate::io::tag_interner::CellTags;
 use crate::io::{Document, Format, ReadError};
-use crate::mesh::TagSet;
+use crate::mesh::{Group, TagSet};
 
 /// Nodes that the instances may have together for each byte of the file, and in any file: a line makes an
 /// instance, so that a small file could ask for any amount of memory.
@@ -144,7 +144,17 @@ impl Model {
 
     /// Reads the data of `*SURFACE`.
     pub fn read_surface(&mut self, keyword: &Keyword, lines: &mut Lines<'_>) {
-        self.surfaces.extend(read_surface(keyword, lines, self.current));
+        let mut read = read_surface(keyword, lines, self.current);
+        let number = read.first().and_then(|line| number_of_name(&line.name));
+        let before =
+            self.surfaces.len().checked_sub(read.len()).map(|start| self.surfaces.split_at_mut(start));
+        if let (Some(number), Some((earlier, last))) = (number, before)
+            && is_number_of(last, earlier, &read)
+        {
+            last.iter_mut().for_each(|line| line.number = Some(number));
+            read.clear();
+        }
+        self.surfaces.append(&mut read);
     }
 
     /// Keeps the name of a set of nodes, unless another program made the set for itself.
@@ -258,7 +268,7 @@ fn collect_faces<'a>(
             Some((name, set)) if Rc::ptr_eq(name, &line.name) => set,
             _ => {
                 let mut set = TagSet::default();
-                add_label(&mut set, &line.name);
+                add_label(&mut set, &line.name, line.number);
                 tags.intern(set, Format::Inp)?
             }
         };
@@ -284,8 +294,10 @@ fn sets_of_elements(
     // A combination of element sets is one more set than another combination; the first is of none.
     let mut combinations: Vec<(u32, u32)> = vec![(0, 0)];
     let mut of_element: Vec<u32> = vec![0; part.elements.len()];
+    let numbers = numbers_of_sets(&part.sets);
     for (index, set) in (0..).zip(&part.sets) {
-        if set.is_internal || set.instance.is_some() && set.instance != instance {
+        let is_number = index > 0 && numbers[index as usize - 1].is_some();
+        if is_number || set.is_internal || set.instance.is_some() && set.instance != instance {
             continue;
         }
         let mut grown: HashMap<u32, u32> = HashMap::new();
@@ -302,7 +314,8 @@ fn sets_of_elements(
         *combination = match tag_set.get(combination) {
             Some(&set) => set,
             None => {
-                let set = tags.intern(tag_set_of(*combination, &combinations, &part.sets), Format::Inp)?;
+                let set =
+                    tags.intern(tag_set_of(*combination, &combinations, &part.sets, &numbers), Format::Inp)?;
                 tag_set.insert(*combination, set);
                 set
             }
@@ -312,31 +325,74 @@ fn sets_of_elements(
 }
 
 /// The tag set of a combination of element sets, with the groups in the order of the file.
-fn tag_set_of(mut combination: u32, combinations: &[(u32, u32)], sets: &[ElementSet]) -> TagSet {
+fn tag_set_of(
+    mut combination: u32,
+    combinations: &[(u32, u32)],
+    sets: &[ElementSet],
+    numbers: &[Option<i64>],
+) -> TagSet {
     let mut names = Vec::new();
     while combination != 0 {
         let (rest, set) = combinations[combination as usize];
-        names.push(&sets[set as usize].name);
+        names.push((&sets[set as usize].name, numbers[set as usize]));
         combination = rest;
     }
     let mut set = TagSet::default();
-    names.into_iter().rev().for_each(|name| add_label(&mut set, name));
+    names.into_iter().rev().for_each(|(name, number)| add_label(&mut set, name, number));
     set
 }
 
-/// Adds what the name of an element set says.
-fn add_label(set: &mut TagSet, name: &str) {
-    let rest = |prefix: &str| {
-        let (start, rest) = name.split_at_checked(prefix.len())?;
-        start.eq_ignore_ascii_case(prefix).then_some(rest)
+/// True if the lines of a surface, `last`, which come after `earlier`, are a group with the faces of the next one.
+fn is_number_of(last: &[SurfaceLine], earlier: &[SurfaceLine], next: &[SurfaceLine]) -> bool {
+    let Some(first) = last.first() else { return false };
+    let is_whole = last.iter().all(|line| Rc::ptr_eq(&line.name, &first.name))
+        && earlier.last().is_none_or(|line| !Rc::ptr_eq(&line.name, &first.name));
+    let is_group = is_group(&first.name) && first.number.is_none();
+    is_whole && is_group && last.iter().zip(next).all(|(line, next)| line.is_same_place(next))
+}
+
+/// The number of each element set that is a group with one: that of the next set, if that is a number and has the same
+/// members.
+fn numbers_of_sets(sets: &[ElementSet]) -> Vec<Option<i64>> {
+    let next = |k: usize| {
+        let (set, next) = (&sets[k], sets.get(k + 1)?);
+        let same = set.instance == next.instance && !set.is_internal && !next.is_internal;
+        let number = number_of_name(&next.name)?;
+        (same && is_group(&set.name) && set.members == next.members).then_some(number)
     };
-    if let Some(number) = rest(NUMBER).and_then(|number| number.parse().ok()) {
-        set.number = Some(number);
-    } else if let Some(object) = rest(OBJECT) {
+    (0..sets.len()).map(next).collect()
+}
+
+/// `name` without a prefix in any case.
+fn without<'n>(name: &'n str, prefix: &str) -> Option<&'n str> {
+    let (start, rest) = name.split_at_checked(prefix.len())?;
+    start.eq_ignore_ascii_case(prefix).then_some(rest)
+}
+
+/// The number that a name stands for.
+pub(super) fn number_of_name(name: &str) -> Option<i64> {
+    without(name, NUMBER)?.parse().ok()
+}
+
+/// True if a name is that of a group.
+pub(super) fn is_group(name: &str) -> bool {
+    number_of_name(name).is_none() && without(name, OBJECT).is_none() && without(name, MATERIAL).is_none()
+}
+
+/// Adds what the name of an element set says, which has a number if it is a group.
+fn add_label(set: &mut TagSet, name: &str, number: Option<i64>) {
+    if let Some(number) = number_of_name(name) {
+        if set.number.is_none() {
+            set.number = Some(number);
+        } else if set.groups.iter().all(|group| group.number != Some(number)) {
+            set.groups.push(Group::new("", number));
+        }
+    } else if let Some(object) = without(name, OBJECT) {
         set.object = Some(object.to_owned());
-    } else if let Some(material) = rest(MATERIAL) {
+    } else if let Some(material) = without(name, MATERIAL) {
         set.material = Some(material.to_owned());
     } else {
-        set.groups.push(name.to_owned());
+        set.number = set.number.or(number);
+        set.groups.push(Group { name: name.to_owned(), number });
     }
 }

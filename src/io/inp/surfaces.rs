@@ -13,12 +13,21 @@ use crate::mesh::numbering::hex::FACES;
 pub(super) struct SurfaceLine {
     /// The surface's name.
     pub name: Rc<str>,
+    /// The number that goes with the name.
+    pub number: Option<i64>,
     /// The part in which it stands.
     pub part: usize,
     /// A set or an element, in capitals; in an assembly with an instance's name before a dot.
     target: String,
     /// Which face of a hexahedron it is.
     pub face: usize,
+}
+
+impl SurfaceLine {
+    /// True if `other` names the same faces.
+    pub fn is_same_place(&self, other: &Self) -> bool {
+        (self.part, self.face, &self.target) == (other.part, other.face, &other.target)
+    }
 }
 
 /// The lines of a `*SURFACE` in part number `part` that name faces of hexahedra; other kinds of surfaces have none.
@@ -40,7 +49,7 @@ fn surface_line(name: &Rc<str>, part: usize, line: Line<'_>) -> Option<SurfaceLi
         [b'S' | b's', digit @ b'1'..=b'6'] => usize::from(digit - b'1'),
         _ => return None,
     };
-    Some(SurfaceLine { name: Rc::clone(name), part, target, face })
+    Some(SurfaceLine { name: Rc::clone(name), number: None, part, target, face })
 }
 
 /// The lines of surfaces by what they speak of.

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::{MATERIAL, NUMBER, OBJECT};
 use crate::io::cell_view::CellView;
+use crate::io::tag_numbers;
 use crate::io::text::Text;
 use crate::io::{Document, Format, WriteError};
 use crate::mesh::{TagSet, Tags};
@@ -119,12 +120,24 @@ fn members_of_labels(tags: &Tags) -> Vec<(String, Vec<u32>)> {
     members.into_iter().map(|(label, members)| (names.names[label].clone(), members)).collect()
 }
 
+/// The labels of a set. The number of a group comes after its name, and those without a name come first.
 fn labels(set: &TagSet) -> Vec<String> {
-    let mut labels = set.groups.clone();
-    labels.extend(set.object.iter().map(|name| format!("{OBJECT}{name}")));
-    labels.extend(set.material.iter().map(|name| format!("{MATERIAL}{name}")));
-    labels.extend(set.number.filter(|&number| number != 0).map(|number| format!("{NUMBER}{number}")));
-    labels
+    let (nameless, named): (Vec<_>, Vec<_>) =
+        tag_numbers::labels(set).into_iter().partition(|l| l.name.is_empty());
+    let names = |name: &str| {
+        let prefixed = |ours: &str, prefix: &str| Some(format!("{ours}{}", name.strip_prefix(prefix)?));
+        let object = prefixed(OBJECT, tag_numbers::OBJECT);
+        object.or_else(|| prefixed(MATERIAL, tag_numbers::MATERIAL)).unwrap_or_else(|| name.to_owned())
+    };
+    nameless
+        .iter()
+        .chain(&named)
+        .flat_map(|label| {
+            let name = (!label.name.is_empty()).then(|| names(&label.name));
+            let number = label.number.filter(|&number| number != 0);
+            name.into_iter().chain(number.map(|number| format!("{NUMBER}{number}")))
+        })
+        .collect()
 }
 
 /// Names that Abaqus takes, one for each label. It does not tell `Wing` from `WING`, so the second gets

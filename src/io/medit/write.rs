@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::io::cell_view::{CellView, Cells};
 use crate::io::refusal::{code, refuse_writing};
-use crate::io::tag_numbers::{cell_numbers, has_no_names, labels, number_sets};
+use crate::io::tag_numbers::{Label, cell_numbers, has_no_names, labels, number_sets};
 use crate::io::text::Text;
 use crate::io::{Document, Format, WriteError};
 use crate::mesh::{Features, NodeId, Tags};
@@ -14,7 +14,10 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
     let view = CellView::new(document, Format::Medit)?;
     view.refuse_polygons(Format::Medit)?;
     let mut file = Text::default();
-    file.word("MeshVersionFormatted 2\nDimension 3\n");
+    let references = cell_numbers(view.tags);
+    let of_faces = cell_numbers(view.groups.tags());
+    let is_wide = references.iter().chain(&of_faces).any(|&number| i32::try_from(number).is_err());
+    file.word("MeshVersionFormatted ").word(if is_wide { "4" } else { "2" }).word("\nDimension 3\n");
     write_names(&mut file, view.tags, "reference");
     write_names(&mut file, view.groups.tags(), "reference of quadrilaterals");
     file.word("\nVertices\n").integer(view.positions.len()).word("\n");
@@ -22,11 +25,10 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
         let p = view.positions[node];
         line.float(p.x).word(" ").float(p.y).word(" ").float(p.z).word(" 0\n");
     });
-    let references = cell_numbers(view.tags);
     match view.cells {
         Cells::Hexes(_) => {
             write_cells(&mut file, &view, &references, "Hexahedra", 8);
-            write_grouped_faces(&mut file, &view);
+            write_grouped_faces(&mut file, &view, &of_faces);
         }
         Cells::SecondOrder(_) => {
             let message = "MEDIT is written with hexes of eight nodes only: write VTU, VTK, MSH or INP";
@@ -47,13 +49,14 @@ pub fn write(document: &Document) -> Result<Vec<u8>, WriteError> {
 fn write_names(file: &mut Text, tags: &Tags, what: &str) {
     let named = tags.sets.iter().zip(number_sets(tags)).filter(|(set, _)| !has_no_names(set));
     for (set, number) in named {
-        let names = labels(set).join(", ").replace(['\n', '\r'], " ");
+        let names: Vec<String> = labels(set).iter().map(Label::to_string).collect();
+        let names = names.join(", ").replace(['\n', '\r'], " ");
         file.word("# ").word(what).word(" ").integer(number).word(": ").word(&names).word("\n");
     }
 }
 
 /// The cells of `size` nodes with their references.
-fn write_cells(file: &mut Text, view: &CellView<'_>, references: &[i32], section: &str, size: usize) {
+fn write_cells(file: &mut Text, view: &CellView<'_>, references: &[i64], section: &str, size: usize) {
     let cells = view.cells;
     let members: Vec<usize> = (0..cells.len()).filter(|&cell| cells.nodes(cell).len() == size).collect();
     if members.is_empty() {
@@ -70,8 +73,8 @@ fn write_cells(file: &mut Text, view: &CellView<'_>, references: &[i32], section
 }
 
 /// The faces of hexes that are in groups.
-fn write_grouped_faces(file: &mut Text, view: &CellView<'_>) {
-    let (faces, references) = (view.grouped_faces(), cell_numbers(view.groups.tags()));
+fn write_grouped_faces(file: &mut Text, view: &CellView<'_>, references: &[i64]) {
+    let faces = view.grouped_faces();
     if faces.len() == 0 {
         return;
     }

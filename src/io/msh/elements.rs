@@ -1,5 +1,7 @@
 //! The `$Elements` of an MSH file.
 
+use std::collections::{BTreeMap, HashMap};
+
 use super::file::{MshFile, Version};
 use super::groups::Groups;
 use super::nodes::Nodes;
@@ -23,6 +25,15 @@ struct Element {
     node_count: u8,
     kind: CellKind,
     set: u32,
+    /// In version 2, where elements come once for each group that their entity is in.
+    entity: Option<i32>,
+}
+
+/// What the tags of an element say.
+#[derive(Clone, Copy)]
+struct Place {
+    set: u32,
+    entity: Option<i32>,
 }
 
 /// Bytes that an element takes at least: a number and a node in words.
@@ -43,8 +54,8 @@ impl Elements {
             let number = file.int("the number of an element")?;
             let (kind, node_count) = element_type(file)?;
             let tags = file.int("the number of tags")?;
-            let set = read_tags(file, groups, kind, tags)?;
-            self.read_element(file, number, kind, node_count, set, MshFile::int)?;
+            let place = read_tags(file, groups, kind, tags)?;
+            self.read_element(file, number, (kind, node_count), place, MshFile::int)?;
         }
         Ok(())
     }
@@ -69,8 +80,8 @@ impl Elements {
             let tags = file.int("the number of tags")?;
             for _ in 0..run {
                 let number = file.int("the number of an element")?;
-                let set = read_tags(file, groups, kind, tags)?;
-                self.read_element(file, number, kind, node_count, set, MshFile::int)?;
+                let place = read_tags(file, groups, kind, tags)?;
+                self.read_element(file, number, (kind, node_count), place, MshFile::int)?;
             }
         }
         Ok(())
@@ -85,11 +96,11 @@ impl Elements {
             let dimension = file.int("the dimension of an entity")?;
             let entity = file.int("the number of an entity")?;
             let (kind, node_count) = element_type(file)?;
-            let set = groups.set_of_entity(dimension, entity)?;
+            let place = Place { set: groups.set_of_entity(dimension, entity)?, entity: None };
             let count = file.size("the number of elements of a block")?;
             for _ in 0..file.checked(count, LEAST_ELEMENT, "the number of elements of a block")? {
                 let number = file.size("the number of an element")?;
-                self.read_element(file, number, kind, node_count, set, MshFile::size)?;
+                self.read_element(file, number, (kind, node_count), place, MshFile::size)?;
             }
         }
         Ok(())
@@ -99,16 +110,15 @@ impl Elements {
         &mut self,
         file: &mut MshFile<'a>,
         number: i64,
-        kind: CellKind,
-        node_count: u8,
-        set: u32,
+        (kind, node_count): (CellKind, u8),
+        Place { set, entity }: Place,
         read_number: fn(&mut MshFile<'a>, &str) -> Result<i64, ReadError>,
     ) -> Result<(), ReadError> {
         let first_node = self.nodes.len();
         for _ in 0..node_count {
             self.nodes.push(read_number(file, "a node of an element")?);
         }
-        self.elements.push(Element { number, first_node, node_count, kind, set });
+        self.elements.push(Element { number, first_node, node_count, kind, set, entity });
         Ok(())
     }
 
@@ -122,6 +132,7 @@ impl Elements {
         if !self.elements.is_sorted_by_key(|element| element.number) {
             self.elements.sort_by_key(|element| element.number);
         }
+        self.merge_repeated(groups)?;
         let mut indices = [0; 8];
         for element in &self.elements {
             let indices = &mut indices[..usize::from(element.node_count)];
@@ -142,6 +153,48 @@ impl Elements {
     }
 }
 
+impl Elements {
+    /// Leaves one of the elements that are the same but for their groups, the first, and puts it into the groups of all. A
+    /// true repetition, in a group for the second time, stays.
+    fn merge_repeated(&mut self, groups: &mut Groups) -> Result<(), ReadError> {
+        let mut set_of: HashMap<(CellKind, i32), u32> = HashMap::new();
+        let is_repeated = |element: &Element| {
+            element.entity.is_some_and(|entity| {
+                *set_of.entry((element.kind, entity)).or_insert(element.set) != element.set
+            })
+        };
+        if !self.elements.iter().any(is_repeated) {
+            return Ok(());
+        }
+        let mut sorted = self.nodes.clone();
+        for element in &self.elements {
+            sorted[element.first_node..][..usize::from(element.node_count)].sort_unstable();
+        }
+        let mut first_of: HashMap<(CellKind, Option<i32>, &[i64]), usize> = HashMap::new();
+        let mut sets_of: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+        let mut is_kept = vec![true; self.elements.len()];
+        for (k, element) in self.elements.iter().enumerate() {
+            let nodes = &sorted[element.first_node..][..usize::from(element.node_count)];
+            let first = *first_of.entry((element.kind, element.entity, nodes)).or_insert(k);
+            if first == k {
+                continue;
+            }
+            let sets = sets_of.entry(first).or_insert_with(|| vec![self.elements[first].set]);
+            if !sets.contains(&element.set) {
+                sets.push(element.set);
+                is_kept[k] = false;
+            }
+        }
+        drop(first_of);
+        for (first, sets) in sets_of {
+            self.elements[first].set = groups.tags.union_of(&sets, Format::Msh)?;
+        }
+        let mut is_kept = is_kept.into_iter();
+        self.elements.retain(|_| is_kept.next().unwrap_or(true));
+        Ok(())
+    }
+}
+
 fn element_type(file: &mut MshFile<'_>) -> Result<(CellKind, u8), ReadError> {
     let number = file.int("the type of an element")?;
     CellKind::from_gmsh(number).map_err(|name| {
@@ -150,21 +203,24 @@ fn element_type(file: &mut MshFile<'_>) -> Result<(CellKind, u8), ReadError> {
     })
 }
 
-/// The tags of an element of version 2: the first is the physical group, the others say nothing of it.
+/// The tags of an element of version 2: the first is the physical group, the second the entity.
 fn read_tags(
     file: &mut MshFile<'_>,
     groups: &mut Groups,
     kind: CellKind,
     count: i64,
-) -> Result<u32, ReadError> {
-    let mut group = 0;
+) -> Result<Place, ReadError> {
+    let (mut group, mut entity) = (0, 0);
     for index in 0..count {
         let tag = file.int("a tag of an element")?;
-        if index == 0 {
-            group = tag;
+        match index {
+            0 => group = tag,
+            1 => entity = tag,
+            _ => {}
         }
     }
-    groups.set_of_groups(dimension(kind), vec![group])
+    let set = groups.set_of_groups(dimension(kind), vec![group])?;
+    Ok(Place { set, entity: i32::try_from(entity).ok() })
 }
 
 fn dimension(kind: CellKind) -> i64 {

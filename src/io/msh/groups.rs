@@ -8,7 +8,7 @@ use crate::io::refusal::{code, excerpt};
 use crate::io::tag_interner::CellTags;
 use crate::io::tag_numbers::set_of_labels;
 use crate::io::{Format, ReadError};
-use crate::mesh::TagSet;
+use crate::mesh::Group;
 
 /// What the file says of physical groups. Entities and groups are known by dimension and number.
 #[derive(Default)]
@@ -99,7 +99,7 @@ impl Groups {
         Ok(set)
     }
 
-    /// The tag set of elements in these groups: the names of all, and the number of the first. A
+    /// The tag set of elements in these groups: the names and numbers of all. A
     /// negative number is a group that the entity is in with the other orientation; a group that comes
     /// twice counts once.
     pub fn set_of_groups(&mut self, dimension: i64, mut groups: Vec<i64>) -> Result<u32, ReadError> {
@@ -110,16 +110,9 @@ impl Groups {
         if let Some(&set) = self.set_of_groups.get(&key) {
             return Ok(set);
         }
-        let names: Vec<&str> = key
-            .1
-            .iter()
-            .filter_map(|&group| self.names.get(&(dimension, group)).map(String::as_str))
-            .collect();
-        let set = if names == [UNTAGGED] {
-            TagSet::default()
-        } else {
-            set_of_labels(names, key.1.first().and_then(|&group| i32::try_from(group).ok()))
-        };
+        let name = |group: i64| self.names.get(&(dimension, group)).cloned().unwrap_or_default();
+        let groups = key.1.iter().map(|&group| Group::new(name(group), group));
+        let set = set_of_labels(groups.filter(|group| group.name != UNTAGGED));
         let index = self.tags.intern(set, Format::Msh)?;
         self.set_of_groups.insert(key, index);
         Ok(index)

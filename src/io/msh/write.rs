@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::UNTAGGED;
 use crate::geometry::Aabb;
 use crate::io::cell_view::{CellView, Cells, GroupedFaces};
-use crate::io::tag_numbers::labels;
+use crate::io::tag_numbers::{Label, labels};
 use crate::io::text::Text;
 use crate::io::{Document, Format, WriteError};
 use crate::mesh::{NodeId, TagSet, Tags};
@@ -101,36 +101,37 @@ struct PhysicalGroups {
 }
 
 impl PhysicalGroups {
-    /// A group for each label, and one without a name for the number of each set. A set with one label
-    /// and a number gives the label that number, as Gmsh's own groups have it.
+    /// A group for each label, with the label's number where Gmsh takes it and no other label has it. A name without a number
+    /// is the same name with one, if there is that.
     fn of(sets: &[TagSet]) -> Self {
+        let labels: Vec<Vec<Label<'_>>> = sets.iter().map(labels_or_untagged).collect();
+        let mut number_of: BTreeMap<&Label<'_>, i32> = BTreeMap::new();
+        let mut numbered: BTreeMap<&str, i32> = BTreeMap::new();
         let mut taken = BTreeSet::new();
-        let own: Vec<Option<i32>> =
-            sets.iter().map(|set| set.number.filter(|&number| number > 0 && taken.insert(number))).collect();
-        let labels: Vec<Vec<String>> =
-            sets.iter().zip(&own).map(|(set, own)| labels_or_untagged(set, *own)).collect();
-        let mut number_of: BTreeMap<&str, i32> = BTreeMap::new();
-        for (own, labels) in own.iter().zip(&labels) {
-            if let ([label], Some(number)) = (labels.as_slice(), own) {
-                number_of.entry(label).or_insert(*number);
+        for label in labels.iter().flatten() {
+            let own = label.number.and_then(|number| i32::try_from(number).ok()).filter(|&number| number > 0);
+            if let Some(own) = own.filter(|&own| !number_of.contains_key(label) && taken.insert(own)) {
+                number_of.insert(label, own);
+                numbered.entry(&label.name).or_insert(own);
             }
         }
         let mut free = 1;
         for label in labels.iter().flatten() {
             number_of.entry(label).or_insert_with(|| {
-                while !taken.insert(free) {
-                    free += 1;
-                }
-                free
+                let same = numbered.get(&*label.name).filter(|_| label.number.is_none());
+                same.copied().unwrap_or_else(|| {
+                    while !taken.insert(free) {
+                        free += 1;
+                    }
+                    free
+                })
             });
         }
-        let of_set = own
-            .into_iter()
-            .zip(&labels)
-            .map(|(own, labels)| {
-                let mut groups: Vec<i32> = own.into_iter().collect();
-                for label in labels {
-                    let number = number_of[label.as_str()];
+        let of_set = labels
+            .iter()
+            .map(|labels| {
+                let mut groups: Vec<i32> = Vec::with_capacity(labels.len());
+                for number in labels.iter().map(|label| number_of[label]) {
                     if !groups.contains(&number) {
                         groups.push(number);
                     }
@@ -138,17 +139,33 @@ impl PhysicalGroups {
                 groups
             })
             .collect();
-        let names = number_of.into_iter().map(|(label, number)| (number, quotable(label))).collect();
+        let named = number_of.iter().filter(|(label, _)| !label.name.is_empty());
+        let names = named.map(|(label, &number)| (number, quotable(&label.name))).collect();
         Self { of_set, names }
     }
 }
 
-fn labels_or_untagged(set: &TagSet, own: Option<i32>) -> Vec<String> {
+fn labels_or_untagged(set: &TagSet) -> Vec<Label<'_>> {
     let labels = labels(set);
-    if labels.is_empty() && own.is_none() {
-        return vec![UNTAGGED.to_owned()];
-    }
-    labels
+    if labels.is_empty() { vec![Label { name: UNTAGGED.into(), number: None }] } else { labels }
+}
+
+/// The groups whose numbers are others in a file, in words.
+pub(in crate::io) fn renumbered(tags: &Tags) -> Vec<String> {
+    let groups = PhysicalGroups::of(&tags.sets);
+    let all = tags.sets.iter().zip(&groups.of_set).flat_map(|(set, numbers)| {
+        labels(set)
+            .into_iter()
+            .map(|label| (label.number.is_some_and(|n| !numbers.iter().any(|&m| i64::from(m) == n)), label))
+    });
+    let others: BTreeSet<Label<'_>> = all.filter(|(is_other, _)| *is_other).map(|(_, label)| label).collect();
+    others
+        .into_iter()
+        .map(|label| match (label.number, label.name.is_empty()) {
+            (Some(number), false) => format!("{} ({number})", label.name),
+            _ => label.to_string(),
+        })
+        .collect()
 }
 
 /// A name as it can stand between double quotes on a line, with at most the 127 bytes that Gmsh reads.

@@ -43,7 +43,7 @@ impl Names {
 
     /// `g`: faces from here on belong to these groups.
     pub(super) fn set_groups<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>) {
-        self.current.groups = words.map(text).collect();
+        self.current.groups = words.map(|word| text(word).into()).collect();
         self.index = None;
     }
 

@@ -10,7 +10,7 @@ const BYTES_PER_LINE: usize = 40;
 /// Writes the surface of `document` with its tags and features. Coordinates are written with as few
 /// digits as read back to the same double.
 ///
-/// Blanks in a group's name become `_`, since OBJ parts groups by blanks; a tag's number becomes the
+/// Blanks in a group's name become `_`, since OBJ parts groups by blanks; a group's number becomes the
 /// group `tag_N`. Levels and parents have no place in OBJ.
 ///
 /// # Errors
@@ -96,8 +96,11 @@ impl Writer {
             self.name("o", now.object.iter().map(|name| one_line(name)));
         }
         if (&before.groups, before.number) != (&now.groups, now.number) {
-            let number = now.number.map(|number| format!("tag_{number}"));
-            self.name("g", now.groups.iter().map(|name| one_word(name)).chain(number));
+            let names = now.groups.iter().filter(|group| !group.name.is_empty());
+            let names = names.map(|group| one_word(&group.name));
+            let own = now.number.filter(|_| now.groups.iter().all(|group| group.number != now.number));
+            let numbers = own.into_iter().chain(now.groups.iter().filter_map(|group| group.number));
+            self.name("g", names.chain(numbers.map(|number| format!("tag_{number}"))));
         }
         if before.material != now.material {
             self.name("usemtl", now.material.iter().map(|name| one_line(name)));

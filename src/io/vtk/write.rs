@@ -59,7 +59,8 @@ fn write_cell_data(file: &mut Text, view: &CellView<'_>) {
         column(file, parent.len(), |cell| parent[cell].0);
     }
     if !numbers.is_empty() {
-        scalars(file, TAG, "int");
+        let is_wide = numbers.iter().any(|&number| i32::try_from(number).is_err());
+        scalars(file, TAG, if is_wide { "long" } else { "int" });
         column(file, numbers.len(), |cell| numbers[cell]);
     }
 }

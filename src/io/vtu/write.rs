@@ -89,7 +89,10 @@ fn write_cell_data(file: &mut File, view: &CellView<'_>) {
     }
     let numbers = view.numbers();
     if !numbers.is_empty() {
-        file.array(TAG, "Int32", "", bytemuck::cast_slice(&numbers));
+        match numbers.iter().map(|&number| i32::try_from(number)).collect::<Result<Vec<i32>, _>>() {
+            Ok(narrow) => file.array(TAG, "Int32", "", bytemuck::cast_slice(&narrow)),
+            Err(_) => file.array(TAG, "Int64", "", bytemuck::cast_slice(&numbers)),
+        }
     }
 }
 

@@ -8,10 +8,8 @@ use crate::mesh::{TagSet, Tags};
 #[test]
 fn borders_of_groups_are_features() {
     let mut surface = cuboid([2, 1, 1]);
-    let group = |x: f64| TagSet {
-        groups: vec![if x < 1.0 { "low" } else { "high" }.to_owned()],
-        ..TagSet::default()
-    };
+    let group =
+        |x: f64| TagSet { groups: vec![if x < 1.0 { "low" } else { "high" }.into()], ..TagSet::default() };
     let x_of = |face: &[NodeId]| face.iter().map(|n| surface.positions[n.index()].x).sum::<f64>() / 4.0;
     let of_element = surface.faces().map(|face| u32::from(x_of(face) > 1.0)).collect();
     surface.tags = Tags { sets: vec![group(0.0), group(1.0)], of_element };

@@ -1,7 +1,7 @@
 //! `hexmill refine`: what it writes, and its record.
 
 use hexmill::io::{Document, obj};
-use hexmill::mesh::{PolygonMesh, check_polygons};
+use hexmill::mesh::{Group, PolygonMesh, check_polygons};
 use serde_json::json;
 use tempfile::TempDir;
 
@@ -227,7 +227,7 @@ fn names_are_carried_to_the_quads() {
     assert_eq!(mesh.tags.of_element.len(), mesh.face_count());
     let set = mesh.tags.of(mesh.face_count() - 1).unwrap();
     assert_eq!((set.object.as_deref(), set.material.as_deref()), (Some("shell"), Some("steel")));
-    assert_eq!(set.groups, ["front"]);
+    assert_eq!(set.groups, ["front"].map(Group::from));
 }
 
 #[test]

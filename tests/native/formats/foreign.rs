@@ -32,7 +32,7 @@ pub fn all() -> impl Iterator<Item = (&'static str, &'static [u8], Format)> {
 }
 
 /// What the tags of a fixture say: the number, the name, or nothing where the writer had no place for it.
-fn tag_of(name: &str, wanted: i32) -> (Option<i32>, Option<&'static str>) {
+fn tag_of(name: &str, wanted: i64) -> (Option<i64>, Option<&'static str>) {
     let label = |one, two| if wanted == 1 { one } else { two };
     match name {
         _ if name.ends_with(".msh") && name.starts_with("gmsh") => {
@@ -55,7 +55,7 @@ fn solid_points() -> Vec<Point> {
 }
 
 /// The nodes of a cell, and its tag.
-type Cell = (&'static [u32], i32);
+type Cell = (&'static [u32], i64);
 
 const SURFACE: [Cell; 5] =
     [(&[0, 1, 4, 3], 1), (&[1, 2, 5, 4], 1), (&[3, 4, 7, 6], 2), (&[4, 5, 8], 2), (&[4, 8, 7], 2)];
@@ -84,7 +84,7 @@ fn every_fixture_holds_its_mesh() {
             let (number, label) = tag_of(name, *tag);
             assert_eq!(set.number, number, "{name}");
             assert!(
-                label.is_none_or(|label| set.groups.iter().any(|group| group == label)),
+                label.is_none_or(|label| set.groups.iter().any(|group| group.name == label)),
                 "{name}: {set:?}"
             );
         }

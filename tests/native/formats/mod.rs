@@ -11,5 +11,6 @@ mod hostile;
 mod mutations;
 mod round_trip;
 mod second_order;
+mod several_groups;
 mod stl;
 mod worlds;

@@ -36,7 +36,7 @@ fn mesh() -> HexMesh {
     let bounds = Aabb { min: Point::ZERO, max: Point::new(4.0, 2.0, 2.0) };
     let options = GridOptions { spacing: 2.0, margin: 0.0, fitted: false, max_hexes: 10 };
     let mut mesh = hex_grid(bounds, &options).expect("a grid");
-    let bottom = TagSet { groups: vec!["bottom".to_owned()], ..TagSet::default() };
+    let bottom = TagSet { groups: vec!["bottom".into()], ..TagSet::default() };
     let tags = Tags { sets: vec![bottom], of_element: vec![0] };
     mesh.groups = FaceGroups::new(vec![0], tags).expect("one side");
     mesh

@@ -2,7 +2,7 @@
 
 use hexmill::geometry::Point;
 use hexmill::io::{AnyMesh, Document};
-use hexmill::mesh::{FaceId, Features, HexMesh, NodeId, PolygonMesh, QuadMesh, TagSet, Tags};
+use hexmill::mesh::{FaceId, Features, Group, HexMesh, NodeId, PolygonMesh, QuadMesh, TagSet, Tags};
 
 /// A grid of `n` x `n` quads over the unit square, bent out of its plane.
 pub fn quad_grid(n: u32) -> QuadMesh {
@@ -99,7 +99,7 @@ pub fn some_sets() -> Vec<TagSet> {
             material: Some("steel".into()),
             number: Some(4),
         },
-        TagSet { groups: vec!["deck".into()], number: Some(2), ..TagSet::default() },
+        TagSet { groups: vec![Group::new("deck", 2)], number: Some(2), ..TagSet::default() },
         TagSet { number: Some(9), ..TagSet::default() },
     ]
 }

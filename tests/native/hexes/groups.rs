@@ -26,7 +26,7 @@ fn grouped(mesh: &HexMesh, group: impl Fn(Point, Point) -> Option<u32>) -> HexMe
     labels.sort_unstable();
     let (sides, of_element): (Vec<u32>, Vec<u32>) = labels.into_iter().unzip();
     let count = of_element.iter().max().map_or(0, |&most| most + 1);
-    let sets = (0..count).map(|k| TagSet { groups: vec![format!("group {k}")], ..TagSet::default() });
+    let sets = (0..count).map(|k| TagSet { groups: vec![format!("group {k}").into()], ..TagSet::default() });
     let groups = FaceGroups::new(sides, Tags { sets: sets.collect(), of_element });
     HexMesh { groups: groups.expect("sorted"), ..mesh.clone() }
 }

@@ -24,7 +24,7 @@ fn tagged(mesh: HexMesh, mut material: impl FnMut(Point) -> u32) -> HexMesh {
     };
     let of_element: Vec<u32> = mesh.hexes.iter().map(|hex| material(middle(hex))).collect();
     let count = of_element.iter().max().map_or(0, |&most| most + 1);
-    let set = |k| TagSet { groups: vec![format!("material {k}")], ..TagSet::default() };
+    let set = |k| TagSet { groups: vec![format!("material {k}").into()], ..TagSet::default() };
     HexMesh { tags: Tags { sets: (0..count).map(set).collect(), of_element }, ..mesh }
 }
 

@@ -2,7 +2,7 @@
 
 use hexmill::geometry::Point;
 use hexmill::io::{Document, obj};
-use hexmill::mesh::{NodeId, PolygonMesh};
+use hexmill::mesh::{Group, NodeId, PolygonMesh};
 
 /// The document of `text`.
 fn read(text: &str) -> Document {
@@ -173,7 +173,7 @@ fn names_become_tags() {
     let [none, wall, steel] = &document.tags.sets[..] else { panic!("{:?}", document.tags.sets) };
     assert_eq!((&none.object, none.groups.len(), &none.material), (&None, 0, &None));
     assert_eq!((wall.object.as_deref(), &wall.material), (Some("part one # 2"), &None));
-    assert_eq!(wall.groups, ["wall", "left"]);
+    assert_eq!(wall.groups, ["wall", "left"].map(Group::from));
     assert_eq!(steel.material.as_deref(), Some("Material #25"));
 }
 
@@ -186,7 +186,7 @@ fn a_file_without_names_has_no_tags() {
 fn names_in_other_encodings_are_kept_apart() {
     let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\ng \xE9t\xE9\nf 1 2 3\ng \xE8t\xE8\nf 1 2 3\ng \xC3\xA9\nf 1 2 3";
     let document = obj::read(file).unwrap();
-    let groups: Vec<&str> = document.tags.sets.iter().map(|s| s.groups[0].as_str()).collect();
+    let groups: Vec<&str> = document.tags.sets.iter().map(|s| s.groups[0].name.as_str()).collect();
     assert_eq!(groups, ["été", "ètè", "é"]);
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use hexmill::geometry::Point;
 use hexmill::io::{AnyMesh, Document, obj};
-use hexmill::mesh::{Features, HexMesh, NodeId, PolygonMesh, QuadMesh, TagSet, Tags};
+use hexmill::mesh::{Features, Group, HexMesh, NodeId, PolygonMesh, QuadMesh, TagSet, Tags};
 use proptest::collection::vec;
 use proptest::option;
 use proptest::prelude::*;
@@ -24,7 +24,12 @@ fn tag_set() -> impl Strategy<Value = TagSet> {
     let line = "[a-zä#\\\\.]([a-z é#/.-]{0,6}[a-z#])?";
     let word = "[a-zü][a-z#é/.-]{0,6}";
     (option::of(line), vec(word, 0..3), option::of(line))
-        .prop_map(|(object, groups, material)| TagSet { object, groups, material, number: None })
+        .prop_map(|(object, groups, material)| TagSet {
+            object,
+            groups: groups.into_iter().map(Group::from).collect(),
+            material,
+            number: None,
+        })
         .prop_filter("a '\\' at the end continues the line", |set| {
             !set.object.iter().chain(&set.material).any(|name| name.ends_with('\\'))
         })

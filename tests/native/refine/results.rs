@@ -2,7 +2,7 @@
 
 use hexmill::geometry::Point;
 use hexmill::mesh::check::check_quads;
-use hexmill::mesh::{TagSet, Tags};
+use hexmill::mesh::{Group, TagSet, Tags};
 use hexmill::refine::{QuadOptions, QuadRefinement, RefineError, RefinedQuads, refine_quads};
 use hexmill::sizing::{Region, Shape, Target};
 use hexmill::{Cancelled, Monitor, Silent, Stage};
@@ -77,7 +77,7 @@ fn quads_know_their_parent_and_its_tags() {
         let face = center.x.floor() as u32 + 3 * center.y.floor() as u32;
         assert_eq!(refined.parent[q].0, face);
         let name = if face.is_multiple_of(2) { "even" } else { "odd" };
-        assert_eq!(refined.tags.of(q).unwrap().groups, [name]);
+        assert_eq!(refined.tags.of(q).unwrap().groups, [Group::from(name)]);
     }
 }
 

@@ -54,6 +54,12 @@ export function exported(mesh: Cells, format: OutputFormat, signal: AbortSignal)
   return isHexes(mesh) ? mesh.export(format as HexFormat, { signal }) : mesh.export(format, { signal });
 }
 
+/** The model whose groups a mesh that was made of `input` has; null for that of a solid, which has groups of its own. */
+export function groupsOf(mesh: Cells, input: Input): Surface | HexMesh | null {
+  if (isSolid(mesh)) return null;
+  return isHexes(mesh) ? input.hexes : input.surface;
+}
+
 /** What `loadFile` gives, as an input. */
 export function inputOf(name: string, example: Example | null, model: Surface | HexMesh): Input {
   return model instanceof HexMesh ? { name, example, surface: null, hexes: model } : { name, example, surface: model, hexes: null };

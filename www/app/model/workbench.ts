@@ -13,7 +13,7 @@ import { stem, WRITABLE } from './formats.js';
 import { History } from './history.js';
 import { debounced, Latest } from './latest.js';
 import { DEFAULT_FINENESS, fitting } from './fitting.js';
-import { countedCells, exported, inputOf, jobOf, Maker } from './job.js';
+import { countedCells, exported, groupsOf, inputOf, jobOf, Maker } from './job.js';
 import type { Forecast, Input, Made } from './job.js';
 import { USUAL } from './guide.js';
 import type { Guide } from './guide.js';
@@ -399,6 +399,7 @@ export class Workbench {
       if (content === null) return null;
       const name = `${stem(result.input.name)}.${known.extension}`;
       this.log.add('info', `Wrote ${name}: ${bytes(content.byteLength)}.`);
+      for (const loss of groupsOf(result.mesh, result.input)?.info.losses[format] ?? []) this.log.add('warning', `${name}: ${loss}`);
       return { name, content };
     } catch (error) {
       const problem = complaint(error);

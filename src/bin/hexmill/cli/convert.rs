@@ -4,7 +4,7 @@ use hexmill::io;
 
 use super::args::ConvertArgs;
 use super::failure::Failure;
-use super::files::{check_outputs, format_to_read, format_to_write, load, save};
+use super::files::{check_outputs, format_to_read, format_to_write, load, save, warn_of_losses};
 use super::progress::Progress;
 use super::tell::print;
 use super::words::counted;
@@ -23,6 +23,7 @@ pub(crate) fn run(args: &ConvertArgs, quiet: bool) -> Result<(), Failure> {
         .map_err(|e| Failure::write(&args.output, &e))?;
     progress.stage("write", || save(&args.output, &bytes))?;
     progress.finish();
+    warn_of_losses(&args.output, &document, format, quiet);
     if quiet {
         return Ok(());
     }

@@ -134,6 +134,13 @@ impl Loaded {
     }
 }
 
+/// Warns of what the file at `path` cannot say of the groups of the document in it.
+pub(crate) fn warn_of_losses(path: &Path, document: &Document, format: Format, quiet: bool) {
+    for loss in io::losses(document, format).iter().filter(|_| !quiet) {
+        tell(&format!("warning: {}: {loss}\n", path.display()));
+    }
+}
+
 /// Finds out before any work whether `outputs` can be written: each is a file of its own and none is of `inputs`, which
 /// would be lost, and the folder of each takes new files. Paths are named as on the command line.
 pub(crate) fn check_outputs(inputs: &[(&str, &Path)], outputs: &[(&str, &Path)]) -> Result<(), Failure> {

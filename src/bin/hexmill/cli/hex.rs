@@ -40,7 +40,7 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
 
     let document = Document { second_order, ..Document::from(mesh) };
     let made = Made { command: "hex", input: (&loaded, before), document: &document, capped: 0 };
-    let report = Report { hexing: Some(work), ..args.making.write(&made, format, &progress)? };
+    let report = Report { hexing: Some(work), ..args.making.write(&made, format, &progress, quiet)? };
     args.making.close(report, &progress, quiet, in_words)
 }
 

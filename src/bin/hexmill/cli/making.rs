@@ -6,7 +6,7 @@ use hexmill::io::{self, Document, Format};
 
 use super::args::Making;
 use super::failure::Failure;
-use super::files::{Loaded, check_outputs, format_to_read, save};
+use super::files::{Loaded, check_outputs, format_to_read, save, warn_of_losses};
 use super::mesh_report::{Counts, MeshReport};
 use super::progress::Progress;
 use super::report::{FileReport, InputReport, Report, peak_memory_bytes};
@@ -34,17 +34,19 @@ impl Making {
         self.working.threads.map_or(Ok(()), use_threads)
     }
 
-    /// Writes the mesh, and begins the record of the command.
+    /// Writes the mesh, warns of what the format has no room for, and begins the record of the command.
     pub(super) fn write(
         &self,
         made: &Made<'_>,
         format: Format,
         progress: &Progress,
+        quiet: bool,
     ) -> Result<Report, Failure> {
         let bytes = progress
             .stage("encode", || io::write(made.document, format))
             .map_err(|e| Failure::write(&self.output, &e))?;
         progress.stage("write", || save(&self.output, &bytes))?;
+        warn_of_losses(&self.output, made.document, format, quiet);
         let output = FileReport::new(&self.output, format, bytes.len() as u64);
         drop(bytes);
         let mut mesh = progress.stage("measure", || MeshReport::of(made.document, made.capped));

@@ -34,7 +34,7 @@ pub(crate) fn run(args: &QuadArgs, quiet: bool) -> Result<(), Failure> {
     let made = Made { command: "quad", input: (&loaded, before), document: &Document::from(mesh), capped: 0 };
     let RegionOptions { edge_length, max_quads } = options;
     let face = FaceReport { edge_length, max_quads, off_curve, dropped_polylines: dropped };
-    let report = Report { face: Some(face), ..args.making.write(&made, format, &progress)? };
+    let report = Report { face: Some(face), ..args.making.write(&made, format, &progress, quiet)? };
     args.making.close(report, &progress, quiet, in_words)
 }
 

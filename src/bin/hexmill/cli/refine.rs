@@ -55,7 +55,7 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     let Refined { before, document, capped, options, work, dropped, idle_regions } = refined?;
 
     let made = Made { command: "refine", input: (&loaded, before), document: &document, capped };
-    let report = making.write(&made, format, &progress)?;
+    let report = making.write(&made, format, &progress, quiet)?;
     let (options, dropped_features) = (Some(options), dropped);
     let report = Report { options, refinement: work, dropped_features, idle_regions, ..report };
     making.close(report, &progress, quiet, in_words)
