@@ -20,6 +20,7 @@
 mod conform;
 mod demand;
 mod estimate;
+mod extent;
 pub mod hex;
 mod options;
 mod quad;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::extent::Extent;
 use crate::forest::BaseError;
 use crate::mesh::check::{check_faces, summary};
 use crate::mesh::{FaceId, PolygonMesh, QuadMesh, Tags};
@@ -205,9 +206,9 @@ pub(super) fn validate(
     if !defects.is_empty() {
         return Err(RefineError::InvalidInput(summary(&defects).iter().map(ToString::to_string).collect()));
     }
-    let (size, reach) = (input.bounds().diagonal(), reach(input));
-    if reach > LARGEST || size > LARGEST || (size > 0.0 && size < 1.0 / LARGEST) {
-        return Err(RefineError::Extent { size, reach });
+    let extent = Extent::of(&input.positions);
+    if !extent.is_in_range() {
+        return Err(RefineError::Extent { size: extent.size, reach: extent.reach });
     }
     let out_of_range = |option, value: String, wanted| Err(RefineError::Option { option, value, wanted });
     if options.max_levels > QuadOptions::DEEPEST_LEVEL {
@@ -222,23 +223,11 @@ pub(super) fn validate(
     Ok(())
 }
 
-/// The largest coordinate, and the inverse of the smallest extent: a product of four lengths stays a number.
-const LARGEST: f64 = 1e60;
-
-/// How many of the least steps between coordinates an edge must keep.
-const LEAST_STEPS: f64 = 64.0;
-
-/// The greatest coordinate of a surface, without its sign.
-fn reach(input: &PolygonMesh) -> f64 {
-    let bounds = input.bounds();
-    if bounds.is_empty() { 0.0 } else { bounds.min.abs().max_element().max(bounds.max.abs().max_element()) }
-}
-
 /// Refuses levels that would divide the longest edges until their nodes fall together.
 pub(super) fn validate_digits(input: &PolygonMesh, longest: f64, level: u8) -> Result<(), RefineError> {
-    let reach = reach(input);
-    if longest * 0.5_f64.powi(level.into()) < LEAST_STEPS * f64::EPSILON * reach && level > 0 {
-        return Err(RefineError::TooFewDigits { level, longest, reach });
+    let extent = Extent::of(&input.positions);
+    if level > 0 && !extent.has_digits_for(longest * 0.5_f64.powi(level.into())) {
+        return Err(RefineError::TooFewDigits { level, longest, reach: extent.reach });
     }
     Ok(())
 }

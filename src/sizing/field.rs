@@ -1,11 +1,13 @@
 //! Where elements are to be refined: options and regions made ready for many questions.
 
+use std::cell::LazyCell;
+
 use super::curvature::turn_per_length;
 use super::error::{SizingError, validate};
 use super::overlap::{Overlap, Probe};
 use super::{Region, Target};
-use crate::geometry::{BoxIndex, Corners, Point};
-use crate::mesh::numbering::hex::EDGES;
+use crate::geometry::{Aabb, BoxIndex, Corners, Point};
+use crate::mesh::numbering::hex::{CORNERS, EDGES};
 use crate::mesh::{FaceId, HexMesh, PolygonMesh};
 use crate::parallel;
 use crate::{Cancelled, Monitor};
@@ -156,6 +158,41 @@ impl SizeField {
         longest > self.edge_length
             || element.root.and_then(|f| self.by_face.get(f.index())).is_some_and(|&limit| longest > limit)
             || self.some_region_wants(element)
+    }
+
+    /// How many levels more a hex of `level` with these corners is refined with all its descendants, at least; an edge is
+    /// divided into `parts`. Told by the target for all, and by regions that hold the whole hex.
+    pub fn sure_levels(&self, corners: &[Point; 8], level: u8, parts: f64) -> u8 {
+        // Edges of descendants along an axis are means of those of the hex, divided: so long along the mean direction.
+        let along = |axis: usize| {
+            let edges = || {
+                let all = EDGES.iter().map(|edge| edge.map(usize::from));
+                let along = all.filter(|&[a, b]| CORNERS[a][axis] != CORNERS[b][axis]);
+                along.map(|[a, b]| corners[b] - corners[a])
+            };
+            let direction = edges().sum::<Point>().normalize_or_zero();
+            edges().map(|edge| edge.dot(direction)).fold(f64::INFINITY, f64::min)
+        };
+        let longest = LazyCell::new(|| (0..3).map(along).fold(0.0, f64::max));
+        let to_size = |limit: f64| {
+            if limit == f64::INFINITY {
+                return 0;
+            }
+            let lengths = std::iter::successors(Some(*longest), |length| Some(length / parts));
+            lengths.take(usize::from(u8::MAX)).take_while(|&length| length > limit).count() as u8
+        };
+        let of_region = |region: &Graded| {
+            let wanted = match region.target {
+                Target::Size(size) => to_size(limit(size)),
+                Target::Level(wanted) => wanted.saturating_sub(level),
+            };
+            if wanted > 1 && region.overlap.holds(corners) { wanted } else { 0 }
+        };
+        let deepest = match &self.index {
+            None => self.regions.iter().map(of_region).max(),
+            Some(index) => index.touching(&Aabb::around(corners)).map(|i| of_region(&self.regions[i])).max(),
+        };
+        deepest.unwrap_or(0).max(to_size(self.edge_length))
     }
 
     /// The regions that overlap none of `count` cells, by their places among the options'. `elements` gives the elements

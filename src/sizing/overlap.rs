@@ -144,6 +144,35 @@ impl Overlap {
         Self { bounds, shape: Prepared::Cylinder { frame, radius, half_length: from.distance(to) * 0.5 } }
     }
 
+    /// True if the shape holds all of the hull of these points. It may, and that not be told, where it takes several points or
+    /// triangles together.
+    pub(super) fn holds(&self, points: &[Point]) -> bool {
+        let around = Aabb::around(points);
+        if !(self.bounds.min.cmple(around.min).all() && self.bounds.max.cmpge(around.max).all()) {
+            return false;
+        }
+        // Each of the shapes is convex: it holds the hull of what it holds.
+        match &self.shape {
+            Prepared::Box { frame, half } => {
+                let body = CenteredBox { half: *half };
+                points.iter().all(|&p| body.holds(frame.local(p)))
+            }
+            Prepared::Ball { center, radius } => points.iter().all(|p| p.distance(*center) <= *radius),
+            Prepared::Cylinder { frame, radius, half_length } => {
+                let body = CenteredCylinder { radius: *radius, half_length: *half_length };
+                points.iter().all(|&p| body.holds(frame.local(p)))
+            }
+            Prepared::Points { points: centers, index, radius } => index
+                .touching(&around.grown(*radius))
+                .any(|i| points.iter().all(|p| p.distance(centers[i]) <= *radius)),
+            Prepared::Surface { triangles, index, distance } => {
+                index.touching(&around.grown(*distance)).any(|i| {
+                    points.iter().all(|&p| p.distance(closest_on_triangle(p, triangles[i])) <= *distance)
+                })
+            }
+        }
+    }
+
     /// True if the element overlaps the shape by more than a touch, or is nearer to it than `reach`.
     #[inline]
     pub(super) fn is_met<const N: usize>(&self, element: &Probe<N>, reach: f64) -> bool

@@ -112,6 +112,7 @@ impl From<HexRefineError> for Failure {
             HexRefineError::Cancelled(_) => Kind::Cancelled,
             HexRefineError::NoHexes
             | HexRefineError::InvalidInput(_)
+            | HexRefineError::Extent { .. }
             | HexRefineError::Inverted(_)
             | HexRefineError::NotPositive(_)
             | HexRefineError::Tangled(_) => Kind::Input,
@@ -120,7 +121,7 @@ impl From<HexRefineError> for Failure {
             | HexRefineError::TargetCount { .. }
             | HexRefineError::Target { .. }
             | HexRefineError::GrowthRefused { .. } => Kind::Options,
-            HexRefineError::TooManyHexes { .. } => Kind::Limit,
+            HexRefineError::TooManyHexes { .. } | HexRefineError::TooFewDigits { .. } => Kind::Limit,
             HexRefineError::NoTemplate(_) => Kind::Internal,
         };
         Self::new(kind, error.code(), &error)

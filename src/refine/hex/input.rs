@@ -6,6 +6,7 @@ use super::sheets::materials_of;
 use super::shift::RIDGE_DEGREES;
 use crate::geometry::Point;
 use crate::mesh::check::{Defect, summary};
+use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::{Certainty, is_positive};
 use crate::mesh::topology::{HexFaces, Side, hex_of};
 use crate::mesh::{
@@ -13,6 +14,7 @@ use crate::mesh::{
 };
 use crate::monitor::batches;
 use crate::optimize::{BoundarySurface, FaceKind};
+use crate::refine::extent::Extent;
 use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// The stage that this file reports.
@@ -28,6 +30,9 @@ pub(super) fn oriented(input: &HexMesh, monitor: &dyn Monitor) -> Result<(HexMes
     let mut mesh = input.clone();
     let is_bad = |h: usize| mesh.hexes[h].iter().any(|n| n.index() >= mesh.positions.len());
     let ids_are_good = !parallel::try_any(mesh.hexes.len(), monitor, is_bad)?;
+    if ids_are_good {
+        refuse_extent(&mesh, monitor)?;
+    }
     let turned = if ids_are_good { orient_hexes(&mut mesh)? } else { 0 };
     monitor.checkpoint(INPUT, 0.1)?;
     let mut defects = check_hexes_within(&mesh, monitor)?;
@@ -49,6 +54,34 @@ pub(super) fn oriented(input: &HexMesh, monitor: &dyn Monitor) -> Result<(HexMes
     drop_unused_nodes(&mut mesh);
     monitor.checkpoint(INPUT, 1.0)?;
     Ok((mesh, turned))
+}
+
+/// Refuses coordinates that hexes cannot be reckoned with. What is not finite is told with the other defects.
+fn refuse_extent(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
+    let nodes = mesh.hexes.as_flattened().iter().map(|n| &mesh.positions[n.index()]);
+    let extent = Extent::of(nodes.filter(|p| p.is_finite()));
+    let Extent { size, reach } = extent;
+    if !extent.is_in_range() {
+        return Err(HexRefineError::Extent { size, reach });
+    }
+    let longest = longest_edge_of(mesh, monitor)?;
+    if !extent.has_digits_for(longest) {
+        return Err(HexRefineError::TooFewDigits { level: 0, longest, reach });
+    }
+    Ok(())
+}
+
+/// The longest edge of all hexes.
+pub(super) fn longest_edge_of(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<f64, Cancelled> {
+    parallel::try_greatest(mesh.hexes.len(), monitor, |h| {
+        longest_edge(&mesh.hexes[h].map(|n| mesh.positions[n.index()]))
+    })
+}
+
+/// The longest edge of a hex.
+pub(super) fn longest_edge(corners: &[Point; 8]) -> f64 {
+    let length = |[a, b]: [u8; 2]| corners[usize::from(a)].distance_squared(corners[usize::from(b)]);
+    EDGES.map(length).into_iter().fold(0.0, f64::max).sqrt()
 }
 
 /// Drops what follows from other defects: where hexes come twice or nodes hang, faces have too many hexes, and links are

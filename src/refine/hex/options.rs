@@ -158,6 +158,30 @@ pub enum HexRefineError {
     /// The input has no hexes.
     #[error("the mesh has no hexes; give one with at least one")]
     NoHexes,
+    /// The coordinates are too large or too close together for lengths, areas and volumes to be numbers.
+    #[error(
+        "the mesh measures {size:e} and reaches {reach:e} from the origin; sizes from 1e-60 to 1e60 can be \
+         refined: scale the mesh, or move it towards the origin"
+    )]
+    Extent {
+        /// The diagonal of the box around the hexes' nodes.
+        size: f64,
+        /// The greatest coordinate, without its sign.
+        reach: f64,
+    },
+    /// The coordinates have too few digits for the hexes, or for so many levels.
+    #[error(
+        "edges of level {level} would be at most {longest:e} long, beyond the digits of coordinates that reach {reach:e}: \
+         move the mesh towards the origin, or ask for fewer levels or larger elements"
+    )]
+    TooFewDigits {
+        /// The first level of which that is so; 0 is the input.
+        level: u8,
+        /// How long its longest edge would be.
+        longest: f64,
+        /// The greatest coordinate, without its sign.
+        reach: f64,
+    },
     /// The input does not conform; each kind of defect in words.
     #[error("the mesh cannot be refined: {}", .0.join("; "))]
     InvalidInput(Vec<String>),
@@ -246,6 +270,8 @@ impl HexRefineError {
         match self {
             Self::Cancelled(_) => "cancelled",
             Self::NoHexes => "mesh-empty",
+            Self::Extent { .. } => "mesh-extent",
+            Self::TooFewDigits { .. } => "too-few-digits",
             Self::InvalidInput(_) => "mesh-invalid",
             Self::Inverted(_) => "mesh-inverted",
             Self::Sizing(error) => error.code(),

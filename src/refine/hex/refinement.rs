@@ -1,13 +1,13 @@
 //! What is to be refined, decided level by level, by the options and by a caller's size function.
 
-use super::input::{coincident_nodes, oriented};
+use super::input::{coincident_nodes, longest_edge, longest_edge_of, oriented};
 use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size, validate};
 use super::plan::{Decided, HexPlan};
 use super::trees::Trees;
 use crate::geometry::Point;
-use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::{HexMesh, NodeId};
 use crate::refine::Candidates;
+use crate::refine::extent::Extent;
 use crate::refine::targets::{exceeds, first_bad_target};
 use crate::sizing::{SizeField, SizeOptions, SizedElement};
 use crate::{Cancelled, Monitor, Stage, parallel};
@@ -51,6 +51,9 @@ pub struct HexRefinement<'a> {
     turned: usize,
     /// Hexes of the input that are refined so that all are in families.
     base: usize,
+    extent: Extent,
+    /// The longest edge of the input.
+    longest: f64,
 }
 
 impl<'a> HexRefinement<'a> {
@@ -68,7 +71,8 @@ impl<'a> HexRefinement<'a> {
         let &HexOptions { edge_length, gradation, ref regions, .. } = options;
         let sizes = SizeOptions { edge_length, curvature: None, gradation, regions };
         let field = SizeField::of_hexes(&input, sizes)?;
-        Ok(Self { options, input, field, trees: None, capped: 0, turned, base: 0 })
+        let (extent, longest) = (Extent::of(&input.positions), longest_edge_of(&input, monitor)?);
+        Ok(Self { options, input, field, trees: None, capped: 0, turned, base: 0, extent, longest })
     }
 
     /// The elements that the next [`advance`](Self::advance) decides on: the input's hexes at first, then the
@@ -118,10 +122,8 @@ impl<'a> HexRefinement<'a> {
             self.may_refine_all(&marked)?;
             marked = (0..count as u32).collect();
         }
+        self.may_divide(&marked, monitor)?;
         let is_in_thirds = options.method == Method::Three;
-        let children = if is_in_thirds { 27 } else { 8 };
-        let before = self.trees.as_ref().map_or(count, Trees::leaf_count);
-        check_size(options, number + 1, before as u64 + (children - 1) * marked.len() as u64)?;
         let mut trees = match self.trees.take() {
             Some(trees) => trees,
             None if is_in_thirds => Trees::thirds(&self.input),
@@ -130,6 +132,51 @@ impl<'a> HexRefinement<'a> {
         trees.split(number.into(), &marked, monitor)?;
         self.trees = Some(trees);
         Ok(true)
+    }
+
+    /// Refuses to divide the marked elements of the deepest level, and those of their descendants that are sure to be wanted
+    /// finer too, beyond the limit of hexes or the digits of coordinates.
+    fn may_divide(&mut self, marked: &[u32], monitor: &dyn Monitor) -> Result<(), HexRefineError> {
+        let (options, (number, count)) = (self.options, self.last());
+        let parts: u8 = if options.method == Method::Three { 3 } else { 2 };
+        let longest = self.longest / f64::from(parts).powi(i32::from(number) + 1);
+        if !self.extent.has_digits_for(longest) {
+            return Err(HexRefineError::TooFewDigits {
+                level: number + 1,
+                longest,
+                reach: self.extent.reach,
+            });
+        }
+        let sure = self.sure_levels(marked, monitor)?;
+        let before = self.trees.as_ref().map_or(count, Trees::leaf_count) as u64;
+        let mut of_levels = [0_u64; HexOptions::DEEPEST_LEVEL as usize + 1];
+        sure.into_iter().for_each(|levels| of_levels[usize::from(levels)] += 1);
+        let children = u64::from(parts).pow(3);
+        let after = |level: u8| {
+            let made = (0..).zip(of_levels).map(|(levels, elements): (u8, u64)| {
+                elements.saturating_mul(children.saturating_pow(u32::from(levels.min(level))) - 1)
+            });
+            made.fold(before, u64::saturating_add)
+        };
+        (1..=options.max_levels - number)
+            .try_for_each(|level| check_size(options, number + level, after(level)))
+    }
+
+    /// How many levels more each of the marked elements of the deepest level is refined with all its descendants, at least.
+    fn sure_levels(&mut self, marked: &[u32], monitor: &dyn Monitor) -> Result<Vec<u8>, HexRefineError> {
+        let (options, (number, _)) = (self.options, self.last());
+        let most = options.max_levels - number;
+        let everywhere = options.levels.unwrap_or(0).saturating_sub(number).clamp(1, most);
+        if everywhere == most || self.field.is_idle_from(number + everywhere) {
+            return Ok(vec![everywhere; marked.len()]);
+        }
+        self.make_last(monitor)?;
+        let level = self.last_level();
+        let parts = if options.method == Method::Three { 3.0 } else { 2.0 };
+        Ok(parallel::try_collect(marked.len(), monitor, |k| {
+            let corners = level.corners(&level.elements[marked[k] as usize]);
+            everywhere.max(self.field.sure_levels(&corners, number, parts).min(most))
+        })?)
     }
 
     /// Refuses to refine all hexes of the input where those `marked` alone are asked for, if the options say so.
@@ -162,7 +209,7 @@ impl<'a> HexRefinement<'a> {
         self,
         monitor: &dyn Monitor,
     ) -> Result<(HexPlan<'a>, Option<Trees>), HexRefineError> {
-        let Self { options, input, field, trees, capped, turned, base } = self;
+        let Self { options, input, field, trees, capped, turned, base, .. } = self;
         let idle_regions = field.idle_regions(input.hexes.len(), monitor, |h| {
             let corners = input.hexes[h].map(|n| input.positions[n.index()]);
             [SizedElement { corners, longest: longest_edge(&corners), level: 0, root: None }]
@@ -236,11 +283,6 @@ impl Level<'_> {
     fn corners(&self, element: &[NodeId; 8]) -> [Point; 8] {
         element.map(|n| self.positions[n.index()])
     }
-}
-
-fn longest_edge(corners: &[Point; 8]) -> f64 {
-    let length = |[a, b]: [u8; 2]| corners[usize::from(a)].distance_squared(corners[usize::from(b)]);
-    EDGES.map(length).into_iter().fold(0.0, f64::max).sqrt()
 }
 
 /// Refuses targets that are not one length above 0 for each candidate.

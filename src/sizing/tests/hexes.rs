@@ -137,3 +137,60 @@ proptest! {
         prop_assert!(!met || near <= 3f64.sqrt() / 16.0 + 1e-3, "no sample is near");
     }
 }
+
+/// The children of a hex of so many parts along each axis, as trilinear interpolation has them.
+fn children(corners: &[Point; 8], parts: usize) -> Vec<[Point; 8]> {
+    let at = |t: [f64; 3]| -> Point {
+        let weight = |k: usize| -> f64 {
+            (0..3).map(|i| if CORNERS[k][i] == 0 { 1.0 - t[i] } else { t[i] }).product()
+        };
+        (0..8).map(|k| corners[k] * weight(k)).sum()
+    };
+    let child = |m: usize| {
+        let from = [m % parts, m / parts % parts, m / parts / parts];
+        CORNERS.map(|c| at([0, 1, 2].map(|i| (from[i] as f64 + f64::from(c[i])) / parts as f64)))
+    };
+    (0..parts.pow(3)).map(child).collect()
+}
+
+proptest! {
+    /// What is told to be sure is so: every descendant is wanted finer.
+    #[test]
+    fn descendants_are_refined_as_often_as_is_sure(
+        moves in proptest::collection::vec(point(0.4), 8),
+        middle in point(1.0),
+        radius in 0.2..4.0_f64,
+        kind in 0..5_usize,
+        by_level in proptest::bool::ANY,
+        parts in 2..4_usize,
+    ) {
+        let corners: [Point; 8] = std::array::from_fn(|k| Point::from(CORNERS[k].map(f64::from)) + moves[k]);
+        let shape = match kind {
+            0 => Shape::Sphere { center: middle, radius },
+            1 => Shape::Box { min: middle - radius, max: middle + radius, rotation: DQuat::from_xyzw(1., 2., 3., 4.) },
+            2 => Shape::Cylinder { from: middle - Point::X * radius, to: middle + Point::splat(radius), radius },
+            3 => Shape::Points { points: vec![middle, Point::splat(9.0)], radius },
+            _ => Shape::Surface {
+                positions: vec![middle, middle + Point::X, middle + Point::Y],
+                triangles: vec![[0, 1, 2]],
+                distance: radius,
+            },
+        };
+        let target = if by_level { Target::Level(2) } else { Target::Size(0.3) };
+        let regions = [Region { shape, target }];
+        let options = SizeOptions { regions: &regions, ..OPTIONS };
+        let field = SizeField::of_hexes(&mesh(&hex(corners)), options).expect("valid options");
+        let mut elements = vec![corners];
+        for level in 0..field.sure_levels(&corners, 0, parts as f64) {
+            for &corners in &elements {
+                let element = SizedElement { level, ..hex(corners) };
+                prop_assert!(field.wants(&element), "{element:?}");
+            }
+            if level < 2 {
+                elements = elements.iter().flat_map(|corners| children(corners, parts)).collect();
+            } else {
+                break;
+            }
+        }
+    }
+}

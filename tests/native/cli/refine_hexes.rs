@@ -111,6 +111,7 @@ fn limits_are_told_by_the_options_names() {
             2,
             "--levels is 12, but --max-levels 8; give fewer levels, or raise --max-levels",
         ),
+        (&["--levels", "21", "--max-levels", "30"], 2, "--levels is 21; for hexes give at most 20"),
         (&["--levels", "1", "--max-levels", "30"], 2, "--max-levels is 30; for hexes give at most 20"),
         (
             &["--levels", "2", "--max-hexes", "1000"],

@@ -43,16 +43,31 @@ fn options_must_be_within_their_range() {
             "181",
             "invalid value '181' for '--curvature <DEG>': give a number above 0, at most 180",
         ),
-        ("--levels", "40", "invalid value '40' for '--levels <N>': 40 is not in 0..=30"),
-        ("--levels", "-1", "'-1'"),
+        (
+            "--levels",
+            "40",
+            "invalid value '40' for '--levels <N>': give a whole number from 0 to 30, of hexes to 20",
+        ),
+        ("--levels", "255", "give a whole number from 0 to 30, of hexes to 20"),
+        (
+            "--levels",
+            "-1",
+            "invalid value '-1' for '--levels <N>': give a whole number from 0 to 30, of hexes to 20",
+        ),
         ("--levels", "13", "--levels is 13, but --max-levels 12; give fewer levels"),
-        ("--max-levels", "31", "invalid value '31' for '--max-levels <N>': 31 is not in 0..=30"),
+        (
+            "--max-levels",
+            "31",
+            "invalid value '31' for '--max-levels <N>': give a whole number from 0 to 30, of hexes to 20",
+        ),
         ("--max-quads", "1073741825", "1073741825 is not in 1..=1073741824"),
         ("--max-quads", "0", "0 is not in 1..=1073741824"),
         ("--threads", "1025", "1025 is not in 1..=1024"),
         ("--threads", "many", "invalid value 'many' for '--threads <N>'"),
     ] {
         misused(&["refine", "in.obj", "-o", "out.obj", &format!("{option}={value}")], part);
+        // A number below 0 is a value, not an option.
+        misused(&["refine", "in.obj", "-o", "out.obj", option, value], part);
     }
     misused(
         &["refine", "in.obj", "-o", "out.obj", "--levels=3", "--max-levels=2"],

@@ -8,6 +8,7 @@ mod growth;
 mod inner_groups;
 mod judge;
 mod levels;
+mod limits;
 mod materials;
 pub(crate) mod meshes;
 mod octants;

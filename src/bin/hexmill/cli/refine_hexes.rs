@@ -114,10 +114,13 @@ fn options(args: &RefineArgs) -> Result<HexOptions, Failure> {
         return Err(Failure::Usage(message));
     }
     let default = HexOptions::default();
-    let (max_levels, most) = (deepest(args, default.max_levels)?, HexOptions::DEEPEST_LEVEL);
-    if max_levels > most {
-        return Err(Failure::Usage(format!("--max-levels is {max_levels}; for hexes give at most {most}")));
+    let most = HexOptions::DEEPEST_LEVEL;
+    for (option, given) in [("--levels", args.levels), ("--max-levels", args.max_levels)] {
+        if let Some(levels) = given.filter(|&levels| levels > most) {
+            return Err(Failure::Usage(format!("{option} is {levels}; for hexes give at most {most}")));
+        }
     }
+    let max_levels = deepest(args, default.max_levels)?;
     Ok(HexOptions {
         method: args.method.map_or(default.method, Into::into),
         growth: if args.no_growth { Growth::Refuse } else { Growth::Allow },

@@ -71,7 +71,7 @@ pub(crate) struct Making {
 #[derive(Args, Clone, Debug)]
 pub(crate) struct Working {
     /// Threads to use [default: one a core]; the result does not depend on it
-    #[arg(long, short = 'j', value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, short = 'j', value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub(crate) threads: Option<u16>,
 
     /// Where to write a record of the work as JSON (see docs/report.md)
@@ -95,7 +95,7 @@ pub(crate) struct RefineArgs {
     pub(crate) regions: Vec<RegionArg>,
 
     /// Refine everything at least this many times
-    #[arg(long, short, value_name = "N", value_parser = levels())]
+    #[arg(long, short, value_name = "N", value_parser = levels, allow_negative_numbers = true)]
     pub(crate) levels: Option<u8>,
 
     /// How refined hexes and coarse ones are joined; hexes only [default: auto]
@@ -120,15 +120,15 @@ pub(crate) struct RefineArgs {
     pub(crate) keep_coarse: bool,
 
     /// Refine no element more often than this [default: 12; of hexes 8]
-    #[arg(long, value_name = "N", value_parser = levels())]
+    #[arg(long, value_name = "N", value_parser = levels, allow_negative_numbers = true)]
     pub(crate) max_levels: Option<u8>,
 
     /// Refuse to make more quads than this [default: 64000000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=QuadOptions::MOST_QUADS))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=QuadOptions::MOST_QUADS), allow_negative_numbers = true)]
     pub(crate) max_quads: Option<u64>,
 
     /// Refuse to make more hexes than this [default: 16000000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexOptions::MOST_HEXES))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexOptions::MOST_HEXES), allow_negative_numbers = true)]
     pub(crate) max_hexes: Option<u64>,
 
     /// Where to write the mesh
@@ -163,7 +163,7 @@ pub(crate) struct HexArgs {
     pub(crate) background: BackgroundArg,
 
     /// Turn of the surface's normal that one edge may span, in degrees
-    #[arg(long, value_name = "DEG", value_parser = angle)]
+    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true)]
     pub(crate) curvature: Option<f64>,
 
     /// Faces that meet at more than this are parts of different surfaces, in degrees
@@ -171,15 +171,15 @@ pub(crate) struct HexArgs {
     pub(crate) feature_angle: f64,
 
     /// How far mesh and solid may be from each other before hexes there are made smaller
-    #[arg(long, value_name = "D", value_parser = positive)]
+    #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) max_distance: Option<f64>,
 
     /// Make hexes at most this many levels finer to show what was missed, and for --curvature [default: 2]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=i64::from(HexingOptions::MOST_LEVELS)))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=i64::from(HexingOptions::MOST_LEVELS)), allow_negative_numbers = true)]
     pub(crate) max_levels: Option<u8>,
 
     /// Refuse to make a background of more hexes than this [default: 4000000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexingOptions::MOST_HEXES))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=HexingOptions::MOST_HEXES), allow_negative_numbers = true)]
     pub(crate) max_hexes: Option<u64>,
 
     /// Make hexes of the second order, curved along the solid (VTU, VTK, MSH and INP)
@@ -308,7 +308,7 @@ pub(crate) struct GridArgs {
     pub(crate) fit: bool,
 
     /// Refuse to make more hexes than this [default: 16000000]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) max_hexes: Option<u64>,
 }
 
@@ -324,7 +324,7 @@ pub(crate) struct QuadArgs {
     pub(crate) edge_length: f64,
 
     /// Refuse to make more quads than this [default: 16000000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=RegionOptions::MOST_QUADS))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=RegionOptions::MOST_QUADS), allow_negative_numbers = true)]
     pub(crate) max_quads: Option<u64>,
 
     #[command(flatten)]

@@ -1,6 +1,7 @@
 //! What options may be, and how that is told.
 
 use hexmill::refine::QuadOptions;
+use hexmill::refine::hex::HexOptions;
 
 /// A finite number above zero.
 pub(super) fn positive(text: &str) -> Result<f64, String> {
@@ -10,9 +11,11 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Levels that can be asked for.
-pub(super) fn levels() -> clap::builder::RangedI64ValueParser<u8> {
-    clap::value_parser!(u8).range(0..=i64::from(QuadOptions::DEEPEST_LEVEL))
+/// Levels that can be asked for, of surfaces; the fewer of hexes are held against what is read.
+pub(super) fn levels(text: &str) -> Result<u8, String> {
+    let (most, of_hexes) = (QuadOptions::DEEPEST_LEVEL, HexOptions::DEEPEST_LEVEL);
+    let levels = text.parse().ok().filter(|&levels| levels <= most);
+    levels.ok_or_else(|| format!("give a whole number from 0 to {most}, of hexes to {of_hexes}"))
 }
 
 /// Degrees of a turn.
