@@ -3,9 +3,9 @@
 //! A file with hexahedra is a hex mesh: its faces with tags are groups of faces, and its lines are left out. A
 //! file without is a surface, whose lines become [`Features::polylines`].
 
-use super::cell_kind::{CellKind, ONLY_THESE_CELLS};
+use super::cell_kind::{CellKind, ONLY_THESE_CELLS, with_article};
 use super::matched_faces::match_faces;
-use super::refusal::{code, refuse};
+use super::refusal::{code, refuse, refuse_not_finite};
 use super::tag_interner::CellTags;
 use super::{Document, Format, ReadError};
 use crate::geometry::Point;
@@ -74,8 +74,11 @@ impl CellCollector {
             CellKind::Hex | CellKind::Voxel => (8, 8),
         };
         if nodes.len() < least || nodes.len() > most {
-            let message =
-                format!("cell {} of kind {kind:?} has {} nodes; it needs {least}", self.seen, nodes.len());
+            let message = format!(
+                "cell {} (counted from 0) of kind {kind:?} has {} nodes; it needs {least}",
+                self.seen,
+                nodes.len()
+            );
             return Err(refuse(self.format, line, code::CELL_SIZE, message));
         }
         match kind {
@@ -105,7 +108,8 @@ impl CellCollector {
 
     /// The error about a cell that is not read; `named` says what it is.
     pub fn refuse_cell(&self, named: &str, line: Option<u64>) -> ReadError {
-        let message = format!("cell {} is a {named}; {ONLY_THESE_CELLS}", self.seen);
+        let message =
+            format!("cell {} (counted from 0) is {}; {ONLY_THESE_CELLS}", self.seen, with_article(named));
         refuse(self.format, line, code::UNSUPPORTED_CELL, message)
     }
 
@@ -139,10 +143,10 @@ impl CellCollector {
         index.filter(|&n| (n as usize) < self.node_count).map(NodeId).ok_or_else(|| {
             let last = self.first_node + self.node_count as i64 - 1;
             let message = if self.node_count == 0 {
-                format!("cell {} names node {number}, but the file has no nodes", self.seen)
+                format!("cell {} (counted from 0) names node {number}, but the file has no nodes", self.seen)
             } else {
                 format!(
-                    "cell {} names node {number}, but the nodes are numbered {} to {last} — correct the number \
+                    "cell {} (counted from 0) names node {number}, but the nodes are numbered {} to {last} — correct the number \
                      or add the node",
                     self.seen, self.first_node
                 )
@@ -159,11 +163,7 @@ impl CellCollector {
     /// The mesh over `positions`, with what the file says of its cells.
     pub fn finish(self, positions: Vec<Point>, attributes: CellAttributes) -> Result<Document, ReadError> {
         if let Some(node) = positions.iter().position(|p| !p.is_finite()) {
-            let message = format!(
-                "node {} has a coordinate that is NaN or infinite — correct it",
-                node as i64 + self.first_node
-            );
-            return Err(refuse(self.format, None, code::NOT_FINITE, message));
+            return Err(refuse_not_finite(self.format, None, node as i64 + self.first_node));
         }
         let hexes = !self.hexes.is_empty();
         let source = if hexes { &self.hex_source } else { &self.face_source };

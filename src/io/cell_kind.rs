@@ -106,6 +106,12 @@ impl CellKind {
     }
 }
 
+/// A kind of cell with its article.
+pub(super) fn with_article(name: &str) -> String {
+    let article = if name.starts_with('e') { "an" } else { "a" };
+    format!("{article} {name}")
+}
+
 /// What to do about a cell that is not read.
 pub(super) const ONLY_THESE_CELLS: &str = "only triangles, quads, polygons and hexahedra of first order are \
      read; remove the other cells or convert them first";

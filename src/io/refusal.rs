@@ -1,5 +1,7 @@
 //! Refusals that several formats share: their stable codes, and short ways to make the errors.
 
+use std::fmt::Display;
+
 use super::{Format, ReadError, WriteError};
 
 /// Stable codes. A caller may match on them; the words of a message may change.
@@ -48,6 +50,16 @@ pub(super) fn refuse(
     message: impl Into<String>,
 ) -> ReadError {
     ReadError { format, line: line.into(), code, message: message.into() }
+}
+
+/// Refuses a node with a coordinate that is NaN or infinite. `number` is the node's own in the file.
+pub(super) fn refuse_not_finite(
+    format: Format,
+    line: impl Into<Option<u64>>,
+    number: impl Display,
+) -> ReadError {
+    let message = format!("node {number} has a coordinate that is NaN or infinite — correct it");
+    refuse(format, line, code::NOT_FINITE, message)
 }
 
 /// An error of writing.

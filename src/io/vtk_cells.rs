@@ -70,7 +70,7 @@ pub(super) fn collect_cells(
     for (cell, (&end, &number)) in ends.iter().zip(types).enumerate() {
         let nodes = usize::try_from(end).ok().and_then(|end| connectivity.get(start..end)).ok_or_else(|| {
             let message = format!(
-                "cell {cell} has the nodes {start} to {end} of {} in the connectivity — its offset is wrong",
+                "cell {cell} (counted from 0) has the nodes {start} to {end} of {} in the connectivity — its offset is wrong",
                 connectivity.len()
             );
             refuse(format, None, code::INCONSISTENT, message)

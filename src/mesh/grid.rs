@@ -34,7 +34,7 @@ pub enum GridError {
     /// The grid would have more hexes than allowed.
     #[error(
         "{} by {} by {} hexes are more than the limit of {limit}; raise the spacing or the limit",
-        .counts[0], .counts[1], .counts[2]
+        in_digits(.counts[0]), in_digits(.counts[1]), in_digits(.counts[2])
     )]
     TooManyHexes {
         /// Hexes along x, y and z, about.
@@ -52,6 +52,14 @@ pub enum GridError {
         /// The greatest coordinate, without its sign.
         reach: f64,
     },
+}
+
+/// A count as people read it: in digits, one that is very large by its power of ten.
+pub(crate) fn in_digits(count: f64) -> String {
+    if count.is_infinite() {
+        return "more than 1e308".to_owned();
+    }
+    if count < 1e15 { format!("{count}") } else { format!("{count:.1e}") }
 }
 
 impl GridError {
@@ -205,6 +213,13 @@ mod tests {
         assert_eq!(refused(everything, bounds()), "too-many-hexes");
         let far = Aabb { min: Point::splat(1e15), max: Point::splat(1e15) };
         assert_eq!(refused(OPTIONS, far), "too-few-digits");
+        for (spacing, margin, words) in
+            [(1.0, 1e300, "2.0e300 by 2.0e300 by"), (1e-320, 0.0, "more than 1e308 by")]
+        {
+            let options = GridOptions { spacing, margin, ..OPTIONS };
+            let error = hex_grid(Aabb { min: Point::ZERO, max: Point::ONE }, &options).unwrap_err();
+            assert!(error.to_string().starts_with(words), "{error}");
+        }
         let error = hex_grid(bounds(), &GridOptions { max_hexes: 100, ..OPTIONS }).unwrap_err();
         assert_eq!(
             error.to_string(),

@@ -24,6 +24,8 @@ pub(crate) use distance::samples_beyond;
 pub use distance::{Distance, Distances, Triangles, distances_of_hexes};
 pub use face_groups::FaceGroups;
 pub use faces::Faces;
+#[cfg(feature = "bindings")]
+pub(crate) use grid::in_digits;
 pub use grid::{GridError, GridOptions, hex_grid};
 pub use hash::{MeshHash, mesh_hash, polygon_hash};
 pub use hex::HexMesh;

@@ -7,6 +7,7 @@ use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::JsValue;
 
 use super::errors::Failure;
+use crate::mesh::in_digits;
 
 /// Memory for a mesh and the work on it, in bytes: 2 GiB less code, stacks, surfaces, and gaps between blocks.
 const MESH_MEMORY: u64 = 1_650_000_000;
@@ -50,9 +51,10 @@ impl Limit {
         let gigabytes = |cells: f64| cells * *bytes_per_cell as f64 / 1e9;
         let most = self.cost.most();
         let message = format!(
-            "the mesh would have about {cells} {name} and take {:.1} GB, more than the {:.1} GB that WebAssembly has \
+            "the mesh would have about {} {name} and take {} GB, more than the {:.1} GB that WebAssembly has \
              for it, which hold {most} {name}: {advice}, or use the command line, which has all memory",
-            gigabytes(cells),
+            in_digits(cells),
+            in_digits((10.0 * gigabytes(cells)).round() / 10.0),
             gigabytes(most as f64),
         );
         Failure::limit("memory-exceeded", &message)

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use super::lines::{Keyword, Line, Lines};
 use crate::geometry::Point;
-use crate::io::ReadError;
-use crate::io::cell_kind::{CellKind, ONLY_THESE_CELLS};
+use crate::io::cell_kind::{CellKind, ONLY_THESE_CELLS, with_article};
 use crate::io::node_numbers::NodeNumbers;
-use crate::io::refusal::{code, excerpt};
+use crate::io::refusal::{code, excerpt, refuse_not_finite};
+use crate::io::{Format, ReadError};
 
 /// A part; or what stands outside of parts.
 #[derive(Default)]
@@ -70,6 +70,9 @@ impl Part {
             let number = line.integer(fields.next().unwrap_or_default(), "the number of a node")?;
             let mut coordinate = || line.float(fields.next().unwrap_or_default(), "a coordinate");
             let position = Point::new(coordinate()?, coordinate()?, coordinate()?);
+            if !position.is_finite() {
+                return Err(refuse_not_finite(Format::Inp, line.number, number));
+            }
             if self.node_numbers.add(number).is_none() {
                 let message = format!("node {number} comes twice — give one of the two another number");
                 return Err(line.refuse(code::DUPLICATE_NUMBER, message));
@@ -83,7 +86,8 @@ impl Part {
     pub fn read_elements(&mut self, keyword: &Keyword, lines: &mut Lines<'_>) -> Result<(), ReadError> {
         let kind_name = keyword.require("TYPE")?.to_ascii_uppercase();
         let kind = CellKind::from_abaqus(&kind_name).map_err(|name| {
-            let message = format!("{} is a {name}; {ONLY_THESE_CELLS}", excerpt(kind_name.as_bytes()));
+            let (word, name) = (excerpt(kind_name.as_bytes()), with_article(name));
+            let message = format!("{word} is {name}; {ONLY_THESE_CELLS}");
             keyword.refuse(code::UNSUPPORTED_CELL, message)
         })?;
         let node_count: u8 = match kind {

@@ -103,17 +103,17 @@ fn write_surfaces(file: &mut Text, view: &CellView<'_>) {
     }
 }
 
-/// The elements of each label, in order of first use.
+/// The elements of each label, in order of first use by an element: a number without a name comes before all names of the
+/// same elements, whose own it would be if it came after one.
 fn members_of_labels(tags: &Tags) -> Vec<(String, Vec<u32>)> {
     let mut names = Names::default();
-    let labels: Vec<Vec<usize>> = tags
-        .sets
-        .iter()
-        .map(|set| labels(set).into_iter().map(|label| names.index(label)).collect())
-        .collect();
+    let mut of_set: Vec<Option<Vec<usize>>> = vec![None; tags.sets.len()];
     let mut members: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
     for (element, &set) in (0..).zip(&tags.of_element) {
-        for &label in &labels[set as usize] {
+        let of_set = of_set[set as usize].get_or_insert_with(|| {
+            labels(&tags.sets[set as usize]).into_iter().map(|label| names.index(label)).collect()
+        });
+        for &label in &*of_set {
             members.entry(label).or_default().push(element);
         }
     }

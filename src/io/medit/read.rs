@@ -4,7 +4,7 @@ use super::SHARP;
 use crate::geometry::Point;
 use crate::io::cell_collector::{CellAttributes, CellCollector};
 use crate::io::cell_kind::CellKind;
-use crate::io::refusal::{code, excerpt, refuse};
+use crate::io::refusal::{code, excerpt, refuse, refuse_not_finite};
 use crate::io::tag_interner::CellTags;
 use crate::io::tag_numbers::Names;
 use crate::io::tokens::Tokens;
@@ -112,6 +112,10 @@ impl<'a> MeditFile<'a> {
             let mut position = [0.0; 3];
             for coordinate in &mut position[..self.dimension] {
                 *coordinate = self.tokens.float("a coordinate")?;
+            }
+            if position.iter().any(|x| !x.is_finite()) {
+                let number = self.positions.len() + 1;
+                return Err(refuse_not_finite(Format::Medit, self.tokens.line(), number));
             }
             self.tokens.integer("the reference of a vertex")?;
             self.positions.push(position.into());

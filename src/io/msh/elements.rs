@@ -6,7 +6,7 @@ use super::file::{MshFile, Version};
 use super::groups::Groups;
 use super::nodes::Nodes;
 use crate::io::cell_collector::CellCollector;
-use crate::io::cell_kind::{CellKind, ONLY_THESE_CELLS};
+use crate::io::cell_kind::{CellKind, ONLY_THESE_CELLS, with_article};
 use crate::io::refusal::{code, refuse};
 use crate::io::{Format, ReadError};
 
@@ -198,7 +198,8 @@ impl Elements {
 fn element_type(file: &mut MshFile<'_>) -> Result<(CellKind, u8), ReadError> {
     let number = file.int("the type of an element")?;
     CellKind::from_gmsh(number).map_err(|name| {
-        let message = format!("the mesh has a {name} (Gmsh type {number}); {ONLY_THESE_CELLS}");
+        let name = with_article(name);
+        let message = format!("the mesh has {name} (Gmsh type {number}); {ONLY_THESE_CELLS}");
         file.tokens.refuse(code::UNSUPPORTED_CELL, message)
     })
 }

@@ -2,9 +2,9 @@
 
 use super::file::{MshFile, Version};
 use crate::geometry::Point;
-use crate::io::ReadError;
 use crate::io::node_numbers::NodeNumbers;
-use crate::io::refusal::code;
+use crate::io::refusal::{code, refuse_not_finite};
+use crate::io::{Format, ReadError};
 
 /// Nodes and the numbers that the file gives them.
 #[derive(Default)]
@@ -31,7 +31,7 @@ impl Nodes {
         for _ in 0..count {
             let number = file.int("the number of a node")?;
             self.add_number(file, number)?;
-            self.read_position(file)?;
+            self.read_position(file, number)?;
         }
         Ok(())
     }
@@ -47,13 +47,15 @@ impl Nodes {
             let parametric = file.int("whether nodes are parametric")? != 0;
             let count = file.size("the number of nodes of a block")?;
             let count = file.checked(count, LEAST_NODE, "the number of nodes of a block")?;
+            let mut numbers = Vec::new();
             for _ in 0..count {
                 let number = file.size("the number of a node")?;
                 self.add_number(file, number)?;
+                numbers.push(number);
             }
             let parameters = if parametric { dimension.clamp(0, 3) } else { 0 };
-            for _ in 0..count {
-                self.read_position(file)?;
+            for number in numbers {
+                self.read_position(file, number)?;
                 for _ in 0..parameters {
                     file.double("a parameter of a node")?;
                 }
@@ -69,9 +71,13 @@ impl Nodes {
         })
     }
 
-    fn read_position(&mut self, file: &mut MshFile<'_>) -> Result<(), ReadError> {
+    fn read_position(&mut self, file: &mut MshFile<'_>, number: i64) -> Result<(), ReadError> {
         let mut coordinate = || file.double("a coordinate");
-        self.positions.push(Point::new(coordinate()?, coordinate()?, coordinate()?));
+        let position = Point::new(coordinate()?, coordinate()?, coordinate()?);
+        if !position.is_finite() {
+            return Err(refuse_not_finite(Format::Msh, file.tokens.line(), number));
+        }
+        self.positions.push(position);
         Ok(())
     }
 }

@@ -61,8 +61,10 @@ fn read_counted(file: &mut LegacyFile<'_>, count: usize, size: usize) -> Result<
     while let Some((&length, after)) = rest.split_first() {
         let cell = usize::try_from(length).ok().and_then(|length| after.split_at_checked(length));
         let Some((nodes, after)) = cell else {
-            let message =
-                format!("cell {} has {length} nodes, but the list ends before them", list.ends.len());
+            let message = format!(
+                "cell {} (counted from 0) has {length} nodes, but the list ends before them",
+                list.ends.len()
+            );
             return Err(file.tokens.refuse(code::INCONSISTENT, message));
         };
         list.nodes.extend_from_slice(nodes);

@@ -139,7 +139,7 @@ impl<'a> LegacyFile<'a> {
     }
 
     /// Refuses counts of words that the rest of the file cannot hold.
-    fn check_words(&self, count: usize, what: &str) -> Result<(), ReadError> {
+    pub fn check_words(&self, count: usize, what: &str) -> Result<(), ReadError> {
         // A word and the space before it take two bytes; the last of a file may lack the space.
         let most = self.tokens.remaining() / 2 + 1;
         if count <= most {

@@ -5,7 +5,7 @@ use super::cells::{CellList, read_cells};
 use super::file::LegacyFile;
 use crate::geometry::Point;
 use crate::io::cell_collector::CellCollector;
-use crate::io::refusal::{code, excerpt, refuse};
+use crate::io::refusal::{code, excerpt, refuse, refuse_not_finite};
 use crate::io::scalars::Scalar;
 use crate::io::tag_numbers::Names;
 use crate::io::vtk_cells::{CellData, collect_cells, is_wanted};
@@ -110,6 +110,19 @@ fn read_points(file: &mut LegacyFile<'_>) -> Result<Vec<Point>, ReadError> {
     let count = file.number("the number of points")?;
     let scalar = file.scalar()?;
     file.start_data();
-    let values = file.column(count.saturating_mul(3), scalar, "the points")?.into_floats();
-    Ok(values.chunks_exact(3).map(|p| Point::new(p[0], p[1], p[2])).collect())
+    if file.is_binary() {
+        let values = file.column(count.saturating_mul(3), scalar, "the points")?.into_floats();
+        return Ok(values.chunks_exact(3).map(|p| Point::new(p[0], p[1], p[2])).collect());
+    }
+    file.check_words(count.saturating_mul(3), "the points")?;
+    let mut positions = Vec::with_capacity(count);
+    for node in 0..count {
+        let mut coordinate = || file.tokens.float("the points");
+        let position = Point::new(coordinate()?, coordinate()?, coordinate()?);
+        if !position.is_finite() {
+            return Err(refuse_not_finite(Format::Vtk, file.tokens.line(), node));
+        }
+        positions.push(position);
+    }
+    Ok(positions)
 }

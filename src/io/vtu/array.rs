@@ -102,6 +102,21 @@ impl<'a> Decoder<'a> {
         refuse_at(self.bytes, array.at, code, format!("the array {name} {message}"))
     }
 
+    /// The line of a number of the array, if it stands in words; else that of the array.
+    pub fn line_of(&self, array: &DataArray<'_>, place: usize) -> u64 {
+        match array.place {
+            Place::Ascii => {
+                let mut words =
+                    Tokens::new(Format::Vtu, array.text, line_at(self.bytes, array.text_at), None);
+                for _ in 0..=place {
+                    words.next();
+                }
+                words.line().unwrap_or_default()
+            }
+            Place::Binary | Place::Appended(_) => line_at(self.bytes, array.at),
+        }
+    }
+
     fn decode_words(&self, array: &DataArray<'_>, scalar: Scalar) -> Result<Column, ReadError> {
         let mut words = Tokens::new(Format::Vtu, array.text, line_at(self.bytes, array.text_at), None);
         if let Scalar::Float(_) = scalar {

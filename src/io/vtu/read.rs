@@ -5,7 +5,7 @@ use super::array::{Decoder, Wanted};
 use super::xml::{DataArray, Piece, parse};
 use crate::geometry::Point;
 use crate::io::cell_collector::CellCollector;
-use crate::io::refusal::{code, refuse};
+use crate::io::refusal::{code, refuse, refuse_not_finite};
 use crate::io::scalars::Column;
 use crate::io::tag_numbers::{Names, names_from_json};
 use crate::io::vtk_cells::{CellData, collect_cells, is_wanted};
@@ -92,6 +92,10 @@ impl Grid {
         }
         let wanted = Wanted { attribute: "NumberOfPoints", count, each: size };
         let values = decoder.decode(array, Some(wanted))?.into_floats();
+        if let Some(place) = values.iter().position(|x| !x.is_finite()) {
+            let node = self.positions.len() + place / size;
+            return Err(refuse_not_finite(Format::Vtu, decoder.line_of(array, place), node));
+        }
         let points = values.chunks_exact(size);
         self.positions.extend(points.map(|p| Point::new(p[0], p[1], p.get(2).copied().unwrap_or(0.0))));
         Ok(())

@@ -267,8 +267,16 @@ impl Defect {
     }
 }
 
+/// The defect in words, with its ids as they are: counted from 0, which the words say.
 impl std::fmt::Display for Defect {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.tell(f)?;
+        f.write_str(" (counted from 0)")
+    }
+}
+
+impl Defect {
+    fn tell(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::BrokenOffsets { face } => {
                 write!(f, "the corners of face {face} are not where its offsets say")
@@ -372,11 +380,10 @@ pub struct DefectCount {
 
 impl std::fmt::Display for DefectCount {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.first.fmt(f)?;
+        self.first.tell(f)?;
         match self.count {
-            1 => Ok(()),
-            2 => f.write_str(" (and 1 more like it)"),
-            n => write!(f, " (and {} more like it)", n - 1),
+            1 => f.write_str(" (counted from 0)"),
+            n => write!(f, " (counted from 0; and {} more like it)", n - 1),
         }
     }
 }

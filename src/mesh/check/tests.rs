@@ -183,7 +183,7 @@ fn finds_a_node_that_hangs_between_sheets_only_when_asked_for_all_edges() {
 fn defects_speak_and_serialise_with_their_ids() {
     let edge = [3, 7].map(NodeId);
     let defect = Defect::NonManifoldEdge { edge, faces: [1, 2, 9].map(FaceId).to_vec() };
-    assert_eq!(defect.to_string(), "3 faces meet at the edge 3\u{2013}7: 1, 2, 9");
+    assert_eq!(defect.to_string(), "3 faces meet at the edge 3\u{2013}7: 1, 2, 9 (counted from 0)");
     let json = serde_json::to_string(&defect).unwrap();
     assert_eq!(json, r#"{"kind":"nonManifoldEdge","edge":[3,7],"faces":[1,2,9]}"#);
 }
@@ -196,7 +196,10 @@ fn a_summary_counts_by_kind_and_puts_errors_first() {
     let words: Vec<_> = counts.iter().map(ToString::to_string).collect();
     assert_eq!(
         words,
-        ["node 1 hangs inside the edge 0\u{2013}2", "node 4 is used by no face (and 2 more like it)"]
+        [
+            "node 1 hangs inside the edge 0\u{2013}2 (counted from 0)",
+            "node 4 is used by no face (counted from 0; and 2 more like it)"
+        ]
     );
     assert_eq!(counts[1].count, 3);
     assert_eq!(counts[0].severity, Severity::Error);

@@ -126,6 +126,6 @@ fn a_hex_that_is_inside_out_is_an_error() {
     let folder = folder_holding("cube.vtk", &eight_hexes(true));
     let run = hexmill(&folder, &["check", "cube.vtk"]);
     assert_eq!(run.code, Some(1));
-    assert!(run.stderr.contains("hex 7 is inside out at 8 corners"), "{}", run.stderr);
+    assert!(run.stderr.contains("hex 7 is inside out at 8 corners (counted from 0)"), "{}", run.stderr);
     assert!(run.stdout.contains("hexes 3 and 7 lie on the same side of their face"), "{}", run.stdout);
 }

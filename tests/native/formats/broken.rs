@@ -33,7 +33,7 @@ fn medit() {
     check(&format!("{head}Triangles\n1\n1 2 3 0\nRidges\n1\n1\n"), "node-out-of-range", None, "0 edges");
     check(&format!("{head}Triangles\n1\n1 2 3 0\n{{}}\n"), "syntax", Some(11), "name of a section");
     let not_finite = format!("{}Triangles\n1\n1 2 3 0\n", head.replace("1 0 0 0", "inf 0 0 0"));
-    check(&not_finite, "coordinate-not-finite", None, "node 2");
+    check(&not_finite, "coordinate-not-finite", Some(6), "node 2 has a coordinate that is NaN");
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn vtk() {
     check(&format!("{grid}WHAT 1\n"), "syntax", Some(7), "'WHAT'");
     let offsets = "CELLS 2 3\nOFFSETS vtktypeint64\n1 3\nCONNECTIVITY vtktypeint64\n0 1 2\n";
     check(&format!("{grid}{offsets}"), "inconsistent", Some(11), "do not begin with 0");
-    check(&format!("{head}POINTS 1 float\n0 0 1e999\n"), "coordinate-not-finite", None, "node 0");
+    check(&format!("{head}POINTS 2 float\n0 0 0\n0 0 1e999\n"), "coordinate-not-finite", Some(6), "node 1");
 }
 
 #[test]
@@ -123,6 +123,8 @@ fn vtu() {
         "the array 'p' holds 6 numbers, but NumberOfPoints is 3, with 3 for each",
     );
     check(&file("", &piece("0 0 0\n1 0 O", "0 1 2", "3", "5")), "bad-number", Some(6), "'O'");
+    let nan = file("", &piece("0 0 0\n1 0 0\n0 NaN 0", "0 1 2", "3", "5"));
+    check(&nan, "coordinate-not-finite", Some(7), "node 2 has");
     check(&file("", &piece(points, "0 1 3", "3", "5")), "node-out-of-range", Some(8), "node 3");
     check(&file("", &piece(points, "0 1 2", "4", "5")), "inconsistent", None, "its offset is wrong");
     check(
@@ -178,7 +180,12 @@ fn msh() {
     let element = |element: &str| format!("{}{nodes}$Elements\n1\n{element}\n$EndElements\n", head("2.2"));
     check(&element("1 2 2 0 0 1 2 4"), "node-out-of-range", None, "element 1 names node 4");
     check(&element("1 4 2 0 0 1 2 3 3"), "unsupported-cell", Some(12), "tetrahedron (Gmsh type 4)");
-    check(&element("1 9 2 0 0 1 2 3 1 2 3"), "unsupported-cell", Some(12), "second order");
+    check(&element("1 9 2 0 0 1 2 3 1 2 3"), "unsupported-cell", Some(12), "has an element of second order");
+    let nan = |version: &str, nodes: &str| format!("{}$Nodes\n{nodes}\n$EndNodes\n", head(version));
+    let first = nan("2.2", "2\n7 0 0 0\n9 0 nan 0");
+    check(&first, "coordinate-not-finite", Some(7), "node 9 has a coordinate");
+    let second = nan("4.1", "1 2 1 2\n3 1 0 2\n7\n9\n0 0 0\n0 -inf 0");
+    check(&second, "coordinate-not-finite", Some(10), "node 9 has a coordinate");
     check(&element("1 2 2 0 0 1 2"), "bad-number", Some(13), "'$EndElements'");
     let twice = nodes.replace("\n2 1", "\n1 1");
     check(&format!("{}{twice}", head("2.2")), "duplicate-number", Some(7), "node 1 comes twice");
@@ -214,6 +221,7 @@ fn inp() {
     check("", "not-this-format", Some(1), "neither *NODE nor *ELEMENT");
     check("*HEADING\nhello\n", "not-this-format", Some(1), "neither");
     check("*NODE\n1, 0, x, 0\n", "bad-number", Some(2), "'x'");
+    check("*NODE\n1, 0, 0, 0\n7, 0, nan, 0\n", "coordinate-not-finite", Some(3), "node 7 has");
     check("*NODE\n1, 0, 0\n1, 1, 0\n", "duplicate-number", Some(3), "node 1 comes twice");
     check("*NODE, INPUT=mesh.txt\n", "unsupported-feature", Some(1), "another file");
     check("*NODE, SYSTEM=C\n1, 1, 90\n", "unsupported-feature", Some(1), "cylindrical");
@@ -227,7 +235,12 @@ fn inp() {
         Some(5),
         "'C3D4' is a tetrahedron",
     );
-    check(&format!("{nodes}*ELEMENT, TYPE=C3D20R\n"), "unsupported-cell", Some(5), "second order");
+    check(
+        &format!("{nodes}*ELEMENT, TYPE=C3D20R\n"),
+        "unsupported-cell",
+        Some(5),
+        "is an element of second order",
+    );
     check(&format!("{nodes}*ELEMENT, TYPE=U17\n"), "unsupported-cell", Some(5), "unknown");
     check(&format!("{nodes}*ELEMENT, TYPE=S3\n1, 1, 2, 4\n"), "node-out-of-range", Some(6), "node 4");
     check(&format!("{nodes}*ELEMENT, TYPE=S3\n1, 1, 2\n*END\n"), "cell-size", Some(6), "has 2 nodes");

@@ -51,7 +51,11 @@ fn medit() {
             "coordinate-not-finite",
             "node 2",
         ),
-        (format!("{nodes}Triangles\n1\n1 2 -3 0\n"), "node-out-of-range", "line 10: cell 0 names node -3"),
+        (
+            format!("{nodes}Triangles\n1\n1 2 -3 0\n"),
+            "node-out-of-range",
+            "line 10: cell 0 (counted from 0) names node -3",
+        ),
         (
             format!("{nodes}Triangles\n1\n1 2 9223372036854775807 0\n"),
             "node-out-of-range",
@@ -87,8 +91,8 @@ fn vtk() {
         (format!("{grid}POINT_DATA 3\nLOOKUP_TABLE t 9223372036854775807\n0\n"), "truncated", "colours are"),
         (format!("{grid}CELLS 1 4\n3 0 1"), "truncated", "line 8: "),
         (format!("{grid}CELLS -1 4\n"), "bad-number", "it cannot be negative"),
-        (cell("-3 0 1 2"), "inconsistent", "cell 0 has -3 nodes"),
-        (cell("3 0 1 -1"), "node-out-of-range", "cell 0 names node -1"),
+        (cell("-3 0 1 2"), "inconsistent", "cell 0 (counted from 0) has -3 nodes"),
+        (cell("3 0 1 -1"), "node-out-of-range", "cell 0 (counted from 0) names node -1"),
         (cell("3 0 1 4000000000"), "node-out-of-range", "node 4000000000"),
         (cell("3 0 1 2").replace("1 0 0", "1 0 nan"), "coordinate-not-finite", "node 1 has a coordinate"),
         (
@@ -115,7 +119,12 @@ fn vtk() {
         let cells: Vec<u8> = cells.iter().flat_map(|&n| bytes(n)).collect();
         [head("BINARY").as_bytes(), b"POINTS 3 float\n", &points, b"\nCELLS 1 4\n", &cells].concat()
     };
-    check(Format::Vtk, &binary(&[3, 0, 1, 2], i32::to_le_bytes), "inconsistent", "cell 0 has 50331648 nodes");
+    check(
+        Format::Vtk,
+        &binary(&[3, 0, 1, 2], i32::to_le_bytes),
+        "inconsistent",
+        "cell 0 (counted from 0) has 50331648 nodes",
+    );
     check(Format::Vtk, &binary(&[3, 0, 1], i32::to_be_bytes), "truncated", "the cells should take 16 bytes");
     let claim = [head("BINARY").as_bytes(), b"POINTS 9223372036854775807 double\n", &points].concat();
     check(Format::Vtk, &claim, "truncated", "but 36 are left");
@@ -155,7 +164,7 @@ fn msh() {
         ),
         (element("1 2 2 0 0 1 2 -3"), "node-out-of-range", "element 1 names node -3"),
         (element("1 2 2 0 0 1 2 4000000000"), "node-out-of-range", "node 4000000000"),
-        (element("1 2 2 0 0 1 2 3").replace("2 1 0 0", "2 inf 0 0"), "coordinate-not-finite", "node 1"),
+        (element("1 2 2 0 0 1 2 3").replace("2 1 0 0", "2 inf 0 0"), "coordinate-not-finite", "node 2"),
         (nodes[..nodes.len() - 10].to_owned(), "truncated", "where $EndNodes should stand"),
     ] {
         check(Format::Msh, text.as_bytes(), code, words);
@@ -213,7 +222,7 @@ fn inp() {
             "line 6: element 1 names node -3",
         ),
         (format!("{nodes}*ELEMENT, TYPE=S3\n1, 1, 2, 4000000000\n"), "node-out-of-range", "node 4000000000"),
-        (element.replace("2, 1, 0", "2, nan, 0"), "coordinate-not-finite", "node 1"),
+        (element.replace("2, 1, 0", "2, nan, 0"), "coordinate-not-finite", "line 3: node 2"),
         (format!("{element}*ELSET, ELSET=A, GENERATE\n1, 99999999999999999999\n"), "bad-number", "line 8: "),
         (
             format!("{element}*ELSET, ELSET=A, GENERATE\n-9223372036854775808, 9223372036854775807, -1\n"),

@@ -45,9 +45,9 @@ pub fn kept(set: &TagSet, format: Format) -> TagSet {
     }
 }
 
-/// A set that was read without the numbers that MSH gave to the names of `written` that have none.
+/// A set that was read without the numbers that MSH and INP give to the names of `written` that have none.
 pub fn without_given(mut read: TagSet, written: &TagSet, format: Format) -> TagSet {
-    if format == Format::Msh {
+    if matches!(format, Format::Msh | Format::Inp) {
         for (read, written) in read.groups.iter_mut().zip(&written.groups) {
             read.number = read.number.filter(|_| written.number.is_some());
         }
@@ -246,12 +246,14 @@ fn tag_sets() -> impl Strategy<Value = Vec<TagSet>> {
         number: None,
     });
     (proptest::collection::vec(set, 0..5), 1..50_i64).prop_map(|(mut sets, first)| {
+        let names: Vec<Group> = sets.iter().flat_map(|set| set.groups.clone()).collect();
         for (set, number) in sets.iter_mut().zip(first..) {
             set.number = Some(3 * number);
-            // A number beside one name alone is that name's.
+            // A number beside one name alone is that name's, unless other sets have it without.
             if set.object.is_none()
                 && set.material.is_none()
                 && let [group] = set.groups.as_mut_slice()
+                && names.iter().filter(|name| *name == group).count() == 1
             {
                 group.number = set.number;
             }

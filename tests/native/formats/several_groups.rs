@@ -1,7 +1,7 @@
 //! Cells and faces in several groups, each with a number of its own.
 
 use hexmill::io::{AnyMesh, Document, Format, losses, read, write};
-use hexmill::mesh::{Group, HexMesh, TagSet, check_hexes};
+use hexmill::mesh::{Group, HexMesh, TagSet, Tags, check_hexes};
 
 use super::worlds::hex_grid;
 
@@ -158,4 +158,16 @@ fn a_face_under_two_references_is_in_both_groups() {
         let again = read(&write(&document, format).unwrap(), format).unwrap();
         assert_eq!(again.tags.of(1).and_then(|set| set.number), Some(99_999_999_999), "{format}");
     }
+}
+
+/// A number without a name that comes after a name of the same elements would be read as the name's.
+#[test]
+fn numbers_without_names_stay_apart_from_names_in_input_decks() {
+    let named = |name: &str| Group::from(name);
+    let set = |groups: Vec<Group>, number| TagSet { groups, number, ..TagSet::default() };
+    let sets = vec![set(vec![named("v")], None), set(vec![named("b"), named("v")], Some(27))];
+    let mut document = Document::from(hex_grid(1));
+    document.tags = Tags { sets: sets.clone(), of_element: vec![1] };
+    let again = read(&write(&document, Format::Inp).unwrap(), Format::Inp).unwrap();
+    assert_eq!(again.tags.of(0), Some(&sets[1]));
 }

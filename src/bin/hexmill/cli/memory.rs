@@ -30,16 +30,25 @@ impl Limit {
     /// The refusal of so many `cells`, if it is memory that refuses them; `before` says of which file.
     pub(super) fn exceeded(&self, before: &str, cells: u64, name: &str, advice: &str) -> Option<Failure> {
         let free = self.free?;
-        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
         Some(Failure::refused(
             "memory-exceeded",
             format!(
-                "{before}: the mesh would have {cells} {name} or more and take {:.1} GB, of which {:.1} GB are free; \
-                 {advice}, or free memory",
-                gigabytes(cells.saturating_mul(self.bytes_per_cell)),
-                gigabytes(free)
+                "{before}: the mesh would have {} {name} or more and take {}, of which {} are free; {advice}, or free memory",
+                if cells < 1 << 50 { cells.to_string() } else { format!("{:.1e}", cells as f64) },
+                bytes_in_words(cells as f64 * self.bytes_per_cell as f64),
+                bytes_in_words(free as f64)
             ),
         ))
+    }
+}
+
+/// An amount of memory, in the largest unit of which there is one.
+fn bytes_in_words(bytes: f64) -> String {
+    match bytes {
+        1e15.. => format!("{:.1e} GB", bytes / 1e9),
+        1e9.. => format!("{:.1} GB", bytes / 1e9),
+        1e6.. => format!("{:.1} MB", bytes / 1e6),
+        _ => format!("{:.1} kB", bytes / 1e3),
     }
 }
 
@@ -104,6 +113,9 @@ mod tests {
             message.starts_with("error[memory-exceeded]: a.vtu: the mesh would have 2000000 hexes"),
             "{message}"
         );
+        assert!(message.contains("take 660.0 MB, of which 33.0 kB are free"), "{message}");
+        let huge = limit.exceeded("a.vtu", u64::MAX, "hexes", ADVICE).expect("memory is short").to_string();
+        assert!(huge.contains("1.8e19 hexes or more and take 6.1e12 GB"), "{huge}");
         for free in [Some(33_000), None] {
             let limit = Limit::within(100, 330, free);
             assert_eq!(limit.cells, 100);

@@ -39,7 +39,9 @@ deep; the input is level 0):
   sphere:cx,cy,cz,r
   cylinder:ax,ay,az,bx,by,bz,r       capped, from a to b
   points:FILE,r                      within r of a node of FILE
-  surface:FILE,d                     within d of a face of FILE";
+  surface:FILE,d                     within d of a face of FILE
+Corners of a box come in any order. What has no thickness, a flat box, r or d of 0 about nodes and faces, refines the
+elements that it lies in; a cylinder with one point for both ends is a sphere. Other radii are above 0.";
 
 pub(super) const HEX: &str = "\
 Examples:
