@@ -130,8 +130,8 @@ const SPOKES: [[(u8, f64); 3]; 8] = {
     all
 };
 
-/// The longest edge over the shortest.
-fn aspect(corners: &[Point; 8]) -> f64 {
+/// The longest edge of a hex over the shortest.
+pub fn aspect(corners: &[Point; 8]) -> f64 {
     let squared = EDGES.map(|ends| {
         let [a, b] = ends.map(|end| corners[usize::from(end)]);
         a.distance_squared(b)

@@ -12,7 +12,8 @@ mod statistics;
 
 pub use bernstein::{Certainty, JacobianBound, is_positive, min_jacobian_bound};
 pub use hex::{
-    HexQuality, HexQualityReport, corner_scaled_jacobians, hex_quality, hex_quality_within, scaled_jacobian,
+    HexQuality, HexQualityReport, aspect, corner_scaled_jacobians, hex_quality, hex_quality_within,
+    scaled_jacobian,
 };
 pub use quad::{QuadQuality, QualityReport, quad_quality};
 pub use second_order::second_order_jacobian;

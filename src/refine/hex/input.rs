@@ -1,9 +1,9 @@
 //! The input, checked and put right.
 
+use super::bounds::RIDGE_DEGREES;
 use super::labels::{self, group_of, label_of};
 use super::options::HexRefineError;
 use super::sheets::materials_of;
-use super::shift::RIDGE_DEGREES;
 use crate::geometry::Point;
 use crate::mesh::check::{Defect, summary};
 use crate::mesh::numbering::hex::EDGES;

@@ -5,7 +5,7 @@
 //!
 //! 1. Find the interface between refined hexes and coarse ones (`interface`).
 //! 2. Make a layer of transition hexes at it: by a pillow (Method II and 3-refinement: `pinch`, `regions`, `shift`,
-//!    `pillow`), or by cutting coarse hexes (Method I: `layers`).
+//!    `folds`, `pillow`), or by cutting coarse hexes (Method I: `layers`).
 //! 3. Give each transition hex its template (`couple`, `quarters`).
 //! 4. Divide refined hexes and transition hexes, and weld what they share (`skeleton`, `divide`, `transition`).
 //!
@@ -39,8 +39,10 @@
 
 mod attempt;
 mod blocks;
+mod bounds;
 mod couple;
 mod divide;
+mod folds;
 mod forecast;
 mod heritage;
 mod input;

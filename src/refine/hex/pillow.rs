@@ -12,7 +12,7 @@
 //! 1. Find the pinched edges and decide which side each joins (`pinch`).
 //! 2. Decide which side keeps the faces between materials (`materials`).
 //! 3. Around each node of the interface find the regions (`regions`). One of them keeps the node, every other
-//!    gets a copy, moved into the region (`shift`).
+//!    gets a copy, moved into the region (`shift`). Where that would fold the layer (`folds`), more must be refined.
 //! 4. Give the hexes their copies, and make a hex at each face of the interface.
 //!
 //! **Departure from the paper.** It shifts each node by half its shortest edge along the mean normal of the faces,
@@ -24,7 +24,7 @@ use super::materials::kept_by_coarse;
 use super::pinch::{Pinches, add_coarse};
 use super::regions::Regions;
 use super::ridges::Ridges;
-use super::shift::Shifts;
+use super::shift::{Beside, Shifts};
 use super::stage::StageError;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
@@ -127,7 +127,7 @@ fn separated(
     monitor: &dyn Monitor,
 ) -> Result<(Copies, usize), StageError> {
     let mut pinches = Pinches::find(interface, monitor)?;
-    let more = pinches.resolve(interface, monitor)?;
+    let more = pinches.resolve(positions, interface, monitor)?;
     if !more.is_empty() {
         return Err(StageError::Conflict(more));
     }
@@ -215,6 +215,7 @@ impl Copies {
     ) -> Block {
         let (mut star, mut regions, mut shifts) = (Star::default(), Regions::default(), Shifts::default());
         let mut block = Block::default();
+        let mut beside = Beside::default();
         for place in places {
             star.load(interface, place);
             regions.load(interface, &star, pinches, place);
@@ -226,7 +227,8 @@ impl Copies {
                 shifts.lean(&regions, side_beside);
             }
             let is_whole = shifts.keeps_ridges(&regions, staying_side);
-            if !regions.are_trees() || shifts.is_stuck() || !is_whole {
+            let is_folded = shifts.is_folded(|end| beside.freedom(positions, interface, end));
+            if !regions.are_trees() || shifts.is_stuck() || !is_whole || is_folded {
                 add_coarse(&star, &mut block.more, |_| true);
             }
             block.of_use.extend(regions.of_hex.iter().map(|&region| shifts.copy(region as usize)));

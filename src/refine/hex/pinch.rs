@@ -13,14 +13,16 @@
 //! On the boundary the outside counts as a hex of the joined side, whose region then keeps the node.
 //!
 //! At both ends of the edge the separated runs must lie in different regions of the node's star, or the pillow's
-//! faces would meet twice. The coarse side is joined unless that fails there; if the refined side fails too,
-//! a coarse hex at the edge must be refined as well.
+//! faces would meet twice. The coarse side is joined unless that fails there, or folds the layer on the boundary
+//! (`folds`); if the refined side fails too, a coarse hex at the edge must be refined as well.
 
 use std::collections::VecDeque;
 
 use super::blocks::in_blocks;
 use super::interface::{Interface, Star};
 use super::regions::{Regions, has_edge};
+use super::shift::{Beside, Shifts};
+use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::topology::Bins;
 use crate::{Cancelled, Monitor};
@@ -79,10 +81,11 @@ impl Pinches {
     /// all edges can be passed. An edge that changes sides has its neighbours looked at again: each does so once.
     pub(super) fn resolve(
         &mut self,
+        positions: &[Point],
         interface: &Interface,
         monitor: &dyn Monitor,
     ) -> Result<Vec<u32>, Cancelled> {
-        let (mut star, mut regions) = (Star::default(), Regions::default());
+        let mut buffers = Buffers::default();
         let ends: Vec<[usize; 2]> = self.edges.iter().map(|edge| places(interface, edge)).collect();
         let at_node = Bins::of(interface.nodes.len(), 2 * ends.len(), |k| ends.as_flattened()[k]);
         let mut queue: VecDeque<usize> = (0..self.edges.len()).collect();
@@ -94,7 +97,7 @@ impl Pinches {
                 monitor.proceed()?;
             }
             is_queued[k] = false;
-            if self.edges[k].joins_refined || self.can_pass(k, interface, &mut star, &mut regions) {
+            if self.edges[k].joins_refined || self.can_pass(k, positions, interface, &mut buffers) {
                 continue;
             }
             self.edges[k].joins_refined = true;
@@ -104,38 +107,67 @@ impl Pinches {
                 }
             }
         }
-        self.impassable(interface, monitor)
+        self.impassable(positions, interface, monitor)
     }
 
     /// For each edge that cannot be passed a coarse hex at it, ascending.
-    fn impassable(&self, interface: &Interface, monitor: &dyn Monitor) -> Result<Vec<u32>, Cancelled> {
-        let (mut star, mut regions, mut more) = (Star::default(), Regions::default(), Vec::new());
+    fn impassable(
+        &self,
+        positions: &[Point],
+        interface: &Interface,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<u32>, Cancelled> {
+        let (mut buffers, mut more) = (Buffers::default(), Vec::new());
         for (k, edge) in self.edges.iter().enumerate() {
             if k.is_multiple_of(ASKED) {
                 monitor.proceed()?;
             }
-            if !self.can_pass(k, interface, &mut star, &mut regions) {
+            if !self.can_pass(k, positions, interface, &mut buffers) {
+                let star = &mut buffers.star;
                 star.load(interface, places(interface, edge)[0]);
-                add_coarse(&star, &mut more, |hex| has_edge(interface, &star, hex, edge.ends[1]));
+                add_coarse(star, &mut more, |hex| has_edge(interface, star, hex, edge.ends[1]));
             }
         }
         more.sort_unstable();
         Ok(more)
     }
 
-    /// Do the separated runs of edge `k` lie in different regions at both ends, and does at most one region
-    /// want to keep each end?
-    fn can_pass(&self, k: usize, interface: &Interface, star: &mut Star, regions: &mut Regions) -> bool {
+    /// Do the separated runs of edge `k` lie in different regions at both ends, does at most one region want to keep
+    /// each end, and can refined hexes leave coarse ones that do without a fold?
+    fn can_pass(&self, k: usize, positions: &[Point], interface: &Interface, buffers: &mut Buffers) -> bool {
+        let Buffers { star, regions, shifts, beside } = buffers;
         let pinch = self.edges[k];
         let [a, b] = pinch.ends;
         [(a, b), (b, a)].into_iter().all(|(node, end)| {
             let place = interface.place(node).expect("both ends are of the interface");
             star.load(interface, place);
             regions.load(interface, star, self, place);
-            regions.separates_runs(interface, star, end, !pinch.joins_refined)
-                && !(pinch.on_boundary && regions.forced_count() > 1)
+            if !regions.separates_runs(interface, star, end, !pinch.joins_refined) {
+                return false;
+            }
+            if !pinch.on_boundary {
+                return true;
+            }
+            if regions.forced_count() > 1 {
+                return false;
+            }
+            if pinch.joins_refined {
+                return true;
+            }
+            shifts.load(positions, interface, star, regions, interface.kept());
+            shifts.choose_keepers(regions, None, None);
+            !shifts.is_folded(|end| beside.freedom(positions, interface, end))
         })
     }
+}
+
+/// What looking at one edge after another takes.
+#[derive(Default)]
+struct Buffers {
+    star: Star,
+    regions: Regions,
+    shifts: Shifts,
+    beside: Beside,
 }
 
 /// Edges that are looked at before the monitor is asked again.

@@ -1,4 +1,4 @@
-//! Mends the few hexes that the smoothing of a transition left poor.
+//! Mends the hexes that the smoothing of a transition left poor.
 //!
 //! Smoothing moves the layer's nodes alone, and untangling those around what is tangled. A refined hex between two parts of
 //! the layer, or a coarse one, may be left next to flat by that, since its other nodes stay: all sweeps over the layer do not
@@ -14,19 +14,16 @@ use super::options::HexRefineError;
 use super::stage::{StageMesh, StageResult};
 use crate::Monitor;
 use crate::mesh::HexId;
-use crate::mesh::quality::scaled_jacobian;
+use crate::mesh::quality::{aspect, scaled_jacobian};
 use crate::optimize::{BoundarySurface, OptimizeOptions};
 use crate::parallel;
 
-/// A hex with a scaled Jacobian below this is poor: transitions of cubes hardly ever have one.
+/// A hex is poor with a scaled Jacobian below this, over the aspect of the hex which it came from: transitions of cubes
+/// hardly ever have one, those of thin hexes are thin.
 const POOR: f64 = 0.2;
 
 /// It is also below this share of that of the hex which it came from: what is poor because the input is stays as it is.
 const SHARE: f64 = 0.5;
-
-/// Where more than one in so many hexes of the transition is poor, so are the hexes around: thin ones stay thin, and
-/// lifting the worst of them would cost all others more.
-const FEW: usize = 8;
 
 /// Rings of hexes around the poor ones whose nodes move.
 const RINGS: usize = 2;
@@ -39,11 +36,10 @@ pub(super) fn mend_poor(
     monitor: &dyn Monitor,
 ) -> Result<(), HexRefineError> {
     let poor = poor_hexes(stage, before, monitor)?;
-    let transition = stage.mesh.hexes.len() - stage.first_transition;
-    if poor.is_empty() || FEW * poor.len() > transition {
+    if poor.is_empty() {
         return Ok(());
     }
-    let options = OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 4, ..OptimizeOptions::default() };
+    let options = OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 16, ..OptimizeOptions::default() };
     let mut local = Local::beside(stage, &poor, RINGS, monitor)?;
     let faces = local.faces(monitor)?;
     if relax(stage, (&mut local, Some(faces)), surface, &options, monitor)?.is_empty() {
@@ -61,11 +57,14 @@ fn poor_hexes(
     if stage.layer_nodes.is_empty() {
         return Ok(Vec::new());
     }
-    let jacobian =
-        |mesh: &StageMesh, h: usize| scaled_jacobian(&mesh.hexes[h].map(|n| mesh.positions[n.index()]));
+    let corners = |mesh: &StageMesh, h: usize| mesh.hexes[h].map(|n| mesh.positions[n.index()]);
     let is_poor = |h: usize| {
-        let here = jacobian(&stage.mesh, h);
-        here < POOR && here < SHARE * jacobian(before, stage.from[h] as usize)
+        let here = scaled_jacobian(&corners(&stage.mesh, h));
+        if here >= POOR {
+            return false;
+        }
+        let parent = corners(before, stage.from[h] as usize);
+        here * aspect(&parent) < POOR && here < SHARE * scaled_jacobian(&parent)
     };
     Ok(parallel::try_filter(stage.mesh.hexes.len(), monitor, is_poor)?.into_iter().map(HexId).collect())
 }

@@ -82,7 +82,7 @@ impl Ridges {
             regions.load(interface, star, pinches, place);
             shifts.load(positions, interface, star, regions, interface.kept());
             let others: Vec<usize> = shifts.ridges.iter().filter_map(|&end| interface.place(end)).collect();
-            let steepness = |refined| shifts.steepness(positions, interface, star, regions, refined);
+            let steepness = |refined| shifts.steepness(regions, refined);
             found.extend((!others.is_empty()).then(|| AtNode {
                 place,
                 others,

@@ -2,7 +2,8 @@
 //!
 //! A copy moves by [`THICKNESS`] of the node's shortest edge: towards the mean of the region's hexes within the
 //! domain, of its boundary faces on a smooth boundary, along the ridge on a ridge of the boundary, be it sharp or the
-//! border of a group of boundary faces. So copies stay on the boundary, and on its ridges. A region that owns two ridges
+//! border of a group of boundary faces. Away from ridges it turns away from faces of the interface that it would hardly
+//! leave (`folds`). So copies stay on the boundary, and on its ridges. A region that owns two ridges
 //! at the node, or boundary faces on both sides of a ridge that is not its own, cannot move.
 //!
 //! Faces between materials are boundary faces in all of this: of the region that has the hexes on both sides, or, if
@@ -17,25 +18,17 @@
 //! 6. with the most neighbours,
 //! 7. of refined hexes.
 
-use super::interface::{Interface, Kept, Star, StarFace};
+use super::bounds::{ALONG, Bound, Bounds, Freedom, RIDGE};
+use super::folds::Folds;
+use super::interface::{Interface, Kept, Star};
 use super::pillow::THICKNESS;
 use super::regions::{Regions, interface_ends};
 use crate::geometry::Point;
 use crate::mesh::NodeId;
-use crate::mesh::numbering::hex::{FACES, NEIGHBOURS};
-use crate::optimize::FaceKind;
-
-/// Boundary faces that meet at more than this angle meet at a ridge, in degrees.
-pub(super) const RIDGE_DEGREES: f64 = 30.0;
-
-/// Its cosine.
-const RIDGE: f64 = 0.866_025_403_784_438_6;
+use crate::mesh::numbering::hex::NEIGHBOURS;
 
 /// How far the layer leans over beside a ridge, in thicknesses.
 const LEAN: f64 = 0.7;
-
-/// The least sine, as a cosine to the normals, of a ridge's direction to the faces beside it.
-const ALONG: f64 = 0.5;
 
 /// Where the regions of a node can go. Its buffers serve one node after another.
 #[derive(Default)]
@@ -45,27 +38,11 @@ pub(super) struct Shifts {
     distance: f64,
     /// How far the region that keeps the node moves itself.
     lean: Point,
-    bounds: Vec<Bound>,
+    bounds: Bounds,
+    folds: Folds,
     regions: Vec<Shift>,
     /// Edges of the interface along ridges, by their other ends.
     pub(super) ridges: Vec<NodeId>,
-}
-
-/// A boundary face at the node, or one between materials.
-struct Bound {
-    region: u32,
-    /// Out of the lesser of its materials.
-    normal: Point,
-    kind: FaceKind,
-    center: Point,
-    ends: [NodeId; 2],
-}
-
-impl Bound {
-    /// Is an edge between the two a ridge, because they meet at an angle or are of different kinds?
-    fn has_ridge_to(&self, other: &Self) -> bool {
-        self.normal.dot(other.normal) < RIDGE || self.kind != other.kind
-    }
 }
 
 /// What a region can do.
@@ -98,7 +75,9 @@ impl Shifts {
         self.lean = Point::ZERO;
         self.regions.clear();
         self.regions.resize(regions.all.len(), Shift::default());
-        self.find_bounds(positions, interface, star, regions, kept);
+        let region = |hex: usize| regions.of_hex[hex];
+        self.bounds.load(positions, interface, star, region, kept);
+        self.folds.load(positions, interface, star, regions);
         self.ridges.clear();
         let mut shortest = f64::INFINITY;
         for &(hex, corner, _) in &star.hexes {
@@ -109,50 +88,31 @@ impl Shifts {
         }
         self.distance = THICKNESS * shortest.sqrt();
         for region in 0..regions.all.len() {
-            let is_on_boundary = self.bounds.iter().any(|bound| bound.region == region as u32);
+            let is_on_boundary = self.bounds.all.iter().any(|bound| bound.region == region as u32);
             let (towards, is_on_ridge) = if is_on_boundary {
                 self.along_boundary(positions, star, region as u32)
             } else {
                 let center = mean_center(positions, interface, star, regions, region as u32);
                 (Some(center - self.at), false)
             };
-            let direction = towards.and_then(Point::try_normalize);
+            let mut direction = towards.and_then(Point::try_normalize);
+            // At a ridge only the region's own faces are to be had of their plane.
+            let freedom = match (is_on_boundary, self.bounds.freedom(positions)) {
+                (false, _) => Freedom::Free,
+                (true, smooth @ Freedom::Plane(_)) => smooth,
+                _ => Freedom::Fixed,
+            };
+            direction = direction.map(|direction| self.folds.steeper(region as u32, direction, freedom));
             self.regions[region] = Shift { is_on_boundary, is_on_ridge, direction, ..Shift::default() };
         }
         self.find_ridges(regions);
-    }
-
-    fn find_bounds(
-        &mut self,
-        positions: &[Point],
-        interface: &Interface,
-        star: &Star,
-        regions: &Regions,
-        kept: Kept,
-    ) {
-        self.bounds.clear();
-        for face in &star.faces {
-            let Some(kind) = interface.kind(star, face) else { continue };
-            let (hex, side) = kept.keeper(star, face);
-            let id = star.hexes[hex].0;
-            let nodes = &interface.hexes[id as usize];
-            let [a, b, c, d] = FACES[usize::from(side)].map(|k| positions[nodes[usize::from(k)].index()]);
-            let outward = (c - a).cross(d - b).normalize_or_zero();
-            self.bounds.push(Bound {
-                kind,
-                region: regions.of_hex[hex],
-                normal: if interface.material(id) == kind.materials[0] { outward } else { -outward },
-                center: ((a + c) + (b + d)) * 0.25,
-                ends: [face.rest[0], face.rest[2]],
-            });
-        }
     }
 
     /// Which way a region that owns boundary faces moves, if it can; and whether it has a ridge of its own. It cannot move
     /// where faces between materials that it owns go all around the node, nor in line with an edge of the interface that
     /// lies on a ridge: the layer's hexes there would have three nodes on that.
     fn along_boundary(&self, positions: &[Point], star: &Star, region: u32) -> (Option<Point>, bool) {
-        let own = || self.bounds.iter().filter(move |bound| bound.region == region);
+        let own = || self.bounds.all.iter().filter(move |bound| bound.region == region);
         let Some(first) = own().next() else { return (None, false) };
         if !own().any(|bound| bound.has_ridge_to(first)) {
             let ends_twice = |end| own().filter(|bound| bound.ends.contains(&end)).count() == 2;
@@ -162,7 +122,7 @@ impl Shifts {
             let (sum, count) = own().fold((Point::ZERO, 0.0), |(s, n), bound| (s + bound.center, n + 1.0));
             return (Some(sum / count - self.at), false);
         }
-        let mut ends = self.ridge_pairs().filter(|(a, b, _)| a.region == region && b.region == region);
+        let mut ends = self.bounds.ridge_pairs().filter(|(a, b, _)| a.region == region && b.region == region);
         let Some((_, _, end)) = ends.next() else { return (None, false) };
         let direction = positions[end.index()] - self.at;
         let is_alone = ends.all(|(.., other)| other == end);
@@ -181,24 +141,14 @@ impl Shifts {
         };
         let can_move = is_alone
             && own().all(|bound| bound.normal.dot(unit).abs() < ALONG)
-            && !self.ridge_pairs().any(in_line);
+            && !self.bounds.ridge_pairs().any(in_line);
         (can_move.then_some(direction), true)
-    }
-
-    /// Pairs of boundary faces with a ridge between them, and the ridge's other end.
-    fn ridge_pairs(&self) -> impl Iterator<Item = (&Bound, &Bound, NodeId)> {
-        let pairs =
-            self.bounds.iter().enumerate().flat_map(|(k, a)| self.bounds[..k].iter().map(move |b| (a, b)));
-        pairs.filter(|(a, b)| a.has_ridge_to(b)).filter_map(|(a, b)| {
-            let end = a.ends.into_iter().find(|end| b.ends.contains(end))?;
-            Some((a, b, end))
-        })
     }
 
     /// Finds the ridges whose faces belong to regions of different sides.
     fn find_ridges(&mut self, regions: &Regions) {
         let is_refined = |bound: &Bound| regions.all[bound.region as usize].is_refined;
-        let between = self.ridge_pairs().filter(|(a, b, _)| is_refined(a) != is_refined(b));
+        let between = self.bounds.ridge_pairs().filter(|(a, b, _)| is_refined(a) != is_refined(b));
         let between: Vec<_> = between.map(|(a, b, end)| ([a.region, b.region], end)).collect();
         for (beside, end) in between {
             self.ridges.push(end);
@@ -219,18 +169,20 @@ impl Shifts {
     }
 
     /// How steeply the regions of a side leave the interface: the least sine of their angles to it.
-    pub(super) fn steepness(
-        &self,
-        positions: &[Point],
-        interface: &Interface,
-        star: &Star,
-        regions: &Regions,
-        refined: bool,
-    ) -> f64 {
-        let outward = interface_normal(positions, interface, star) * if refined { -1.0 } else { 1.0 };
+    pub(super) fn steepness(&self, regions: &Regions, refined: bool) -> f64 {
+        let own = self.folds.mean_inward() * if refined { 1.0 } else { -1.0 };
         let of_side =
             regions.all.iter().zip(&self.regions).filter(|(region, _)| region.is_refined == refined);
-        of_side.filter_map(|(_, shift)| shift.direction).map(|d| d.dot(outward)).fold(1.0, f64::min)
+        of_side.filter_map(|(_, shift)| shift.direction).map(|d| d.dot(own)).fold(1.0, f64::min)
+    }
+
+    /// Does the layer fold at the node for good? `freedom` tells where other nodes of the interface can go.
+    pub(super) fn is_folded(&self, freedom: impl FnMut(NodeId) -> Freedom) -> bool {
+        let moved = |region: u32| {
+            let shift = &self.regions[region as usize];
+            shift.direction.filter(|_| !shift.keeps).unwrap_or(Point::ZERO)
+        };
+        !self.bounds.all.is_empty() && self.folds.any(moved, freedom)
     }
 
     /// Must a side stay on the ridges, because regions of it cannot move, the outside joins them, or the other side's
@@ -325,17 +277,21 @@ impl Shifts {
     }
 }
 
-/// The mean normal of the interface at a node, towards the coarse side; of length 1 or 0.
-fn interface_normal(positions: &[Point], interface: &Interface, star: &Star) -> Point {
-    let normal = |face: &StarFace| {
-        let second = face.second.filter(|second| star.is_refined(second.0));
-        let (hex, side) = second.unwrap_or(face.first);
-        let nodes = &interface.hexes[star.hexes[hex].0 as usize];
-        let [a, b, c, d] = FACES[usize::from(side)].map(|k| positions[nodes[usize::from(k)].index()]);
-        (c - a).cross(d - b).normalize_or_zero()
-    };
-    let faces = star.faces.iter().filter(|face| star.is_interface(face));
-    faces.map(normal).sum::<Point>().normalize_or_zero()
+/// The nodes of the interface beside one. Its buffers serve one after another.
+#[derive(Default)]
+pub(super) struct Beside {
+    star: Star,
+    bounds: Bounds,
+}
+
+impl Beside {
+    /// Where a node of the interface can go.
+    pub(super) fn freedom(&mut self, positions: &[Point], interface: &Interface, node: NodeId) -> Freedom {
+        let Some(place) = interface.place(node) else { return Freedom::Free };
+        self.star.load(interface, place);
+        self.bounds.load(positions, interface, &self.star, |_| 0, interface.kept());
+        self.bounds.freedom(positions)
+    }
 }
 
 /// The mean of the centers of a region's hexes.

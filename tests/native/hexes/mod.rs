@@ -14,6 +14,7 @@ pub(crate) mod meshes;
 mod octants;
 mod pipeline;
 mod sets;
+mod steps;
 mod worlds;
 
 use hexmill::Silent;
