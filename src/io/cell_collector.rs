@@ -1,10 +1,12 @@
 //! From the cells of a file, of mixed kinds and in any order, to one mesh.
 //!
 //! A file with hexahedra is a hex mesh: its faces with tags are groups of faces, and its lines are left out. A
-//! file without is a surface, whose lines become [`Features::polylines`].
+//! file without is a surface, whose lines become [`Features::polylines`]. Of hexahedra of the second order, and their faces
+//! and edges, the corners are kept; surfaces of the second order are refused.
 
 use super::cell_kind::{CellKind, ONLY_THESE_CELLS, with_article};
 use super::matched_faces::match_faces;
+use super::middle_nodes::MiddleNodes;
 use super::refusal::{code, refuse, refuse_not_finite};
 use super::tag_interner::CellTags;
 use super::{Document, Format, ReadError};
@@ -27,6 +29,12 @@ pub(super) struct CellCollector {
     face_source: Vec<u32>,
     hex_source: Vec<u32>,
     features: Features,
+    /// Nodes beside the corners.
+    middle: MiddleNodes,
+    /// Hexes of the second order so far.
+    linearized: usize,
+    /// The error about the first face or line of the second order: without hexes it is one.
+    refused_face: Option<ReadError>,
     /// Faces of hexes that the file names and does not have.
     dropped_faces: usize,
     /// Names that hexes have no place for.
@@ -58,6 +66,9 @@ impl CellCollector {
             face_source: Vec::new(),
             hex_source: Vec::new(),
             features: Features::default(),
+            middle: MiddleNodes::default(),
+            linearized: 0,
+            refused_face: None,
             dropped_faces: 0,
             dropped_groups: Vec::new(),
         }
@@ -65,24 +76,24 @@ impl CellCollector {
 
     /// Adds a cell with nodes in the file's numbers. `line` is where it stands, for errors.
     pub fn push(&mut self, kind: CellKind, nodes: &[i64], line: Option<u64>) -> Result<(), ReadError> {
-        let (least, most) = match kind {
-            CellKind::Skipped => (0, usize::MAX),
-            CellKind::Polyline => (2, usize::MAX),
-            CellKind::Triangle => (3, 3),
-            CellKind::Quad | CellKind::Pixel => (4, 4),
-            CellKind::Polygon => (3, usize::MAX),
-            CellKind::Hex | CellKind::Voxel => (8, 8),
-        };
-        if nodes.len() < least || nodes.len() > most {
+        let size = kind.size();
+        if !size.contains(&nodes.len()) {
             let message = format!(
-                "cell {} (counted from 0) of kind {kind:?} has {} nodes; it needs {least}",
+                "cell {} (counted from 0) of kind {kind:?} has {} nodes; it needs {}",
                 self.seen,
-                nodes.len()
+                nodes.len(),
+                size.start()
             );
             return Err(refuse(self.format, line, code::CELL_SIZE, message));
         }
+        let (kind, nodes) = match kind.corners() {
+            Some((linear, count)) => {
+                self.leave_middle(kind, &nodes[count..], line)?;
+                (linear, &nodes[..count])
+            }
+            None => (kind, nodes),
+        };
         match kind {
-            CellKind::Skipped => {}
             CellKind::Polyline => {
                 let line = nodes.iter().map(|&n| self.node(n, line)).collect::<Result<_, _>>()?;
                 self.features.polylines.push(line);
@@ -91,6 +102,8 @@ impl CellCollector {
             CellKind::Pixel => self.push_face(&[0, 1, 3, 2].map(|i| nodes[i]), line)?,
             CellKind::Hex => self.push_hex(nodes, line)?,
             CellKind::Voxel => self.push_hex(&[0, 1, 3, 2, 4, 5, 7, 6].map(|i| nodes[i]), line)?,
+            // Those of the second order were taken for those of their corners.
+            _ => {}
         }
         self.seen = self.seen.checked_add(1).ok_or_else(|| self.too_large())?;
         Ok(())
@@ -116,6 +129,21 @@ impl CellCollector {
     /// Sharp edges and corners that the file gives to the surface.
     pub fn features_mut(&mut self) -> &mut Features {
         &mut self.features
+    }
+
+    /// Notes the nodes beside the corners of a cell of the second order.
+    fn leave_middle(&mut self, kind: CellKind, nodes: &[i64], line: Option<u64>) -> Result<(), ReadError> {
+        if kind.is_hex() {
+            self.linearized += 1;
+        } else if self.refused_face.is_none() {
+            let named = if kind == CellKind::Edge3 { "line" } else { "quad" };
+            self.refused_face = Some(self.refuse_cell(&format!("{named} of second order"), line));
+        }
+        for &node in nodes {
+            let node = self.node(node, line)?;
+            self.middle.note(node, self.node_count);
+        }
+        Ok(())
     }
 
     fn push_face(&mut self, nodes: &[i64], line: Option<u64>) -> Result<(), ReadError> {
@@ -161,7 +189,11 @@ impl CellCollector {
     }
 
     /// The mesh over `positions`, with what the file says of its cells.
-    pub fn finish(self, positions: Vec<Point>, attributes: CellAttributes) -> Result<Document, ReadError> {
+    pub fn finish(
+        mut self,
+        positions: Vec<Point>,
+        attributes: CellAttributes,
+    ) -> Result<Document, ReadError> {
         if let Some(node) = positions.iter().position(|p| !p.is_finite()) {
             return Err(refuse_not_finite(self.format, None, node as i64 + self.first_node));
         }
@@ -172,6 +204,9 @@ impl CellCollector {
             return Err(refuse(self.format, None, code::NO_CELLS, message));
         }
         let mut cell_tags = attributes.tags.unwrap_or_default();
+        if let Some(error) = self.refused_face.take_if(|_| !hexes) {
+            return Err(error);
+        }
         let tags = cell_tags.of_cells(source);
         let level = pick(attributes.level, source, |v| u8::try_from(v).ok());
         let parent = pick(attributes.parent, source, |v| u32::try_from(v).ok().map(FaceId));
@@ -184,8 +219,11 @@ impl CellCollector {
         let dropped_faces = others.len() + self.dropped_faces;
         let mut dropped_groups = cell_tags.names_of(&others);
         dropped_groups.extend(self.dropped_groups);
-        let mesh = HexMesh { positions, hexes: self.hexes, groups, ..HexMesh::default() };
-        Ok(Document { tags, level, parent, dropped_faces, dropped_groups, ..Document::from(mesh) })
+        let Self { middle, linearized, mut hexes, .. } = self;
+        let positions = middle.leave_out(positions, &mut hexes);
+        let mesh = HexMesh { positions, hexes, groups, ..HexMesh::default() };
+        let document = Document::from(mesh);
+        Ok(Document { tags, level, parent, linearized, dropped_faces, dropped_groups, ..document })
     }
 
     /// The groups of faces, and the cells that are faces and none of the hexes'.

@@ -1,5 +1,7 @@
 //! The kinds of cells that files hold, and how each format names them.
 
+use std::ops::RangeInclusive;
+
 /// A kind of cell that is read. All other kinds are refused by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum CellKind {
@@ -19,9 +21,49 @@ pub(super) enum CellKind {
     Hex,
     /// Eight nodes, row by row (VTK_VOXEL).
     Voxel,
+    /// The ends and a node between them.
+    Edge3,
+    /// The corners of a quad and a node on each edge.
+    Quad8,
+    /// As `Quad8`, and a node inside.
+    Quad9,
+    /// The corners of a hexahedron and a node on each edge.
+    Hex20,
+    /// As `Hex20`, and a node on each face and inside.
+    Hex27,
 }
 
 impl CellKind {
+    /// How many nodes a cell of this kind has: the least number and the greatest.
+    pub fn size(self) -> RangeInclusive<usize> {
+        match self {
+            Self::Skipped => 0..=usize::MAX,
+            Self::Polyline => 2..=usize::MAX,
+            Self::Triangle | Self::Edge3 => 3..=3,
+            Self::Quad | Self::Pixel => 4..=4,
+            Self::Polygon => 3..=usize::MAX,
+            Self::Hex | Self::Voxel | Self::Quad8 => 8..=8,
+            Self::Quad9 => 9..=9,
+            Self::Hex20 => 20..=20,
+            Self::Hex27 => 27..=27,
+        }
+    }
+
+    /// Of a kind of the second order that of its corners, which are the first of its nodes, and how many they are.
+    pub fn corners(self) -> Option<(Self, usize)> {
+        match self {
+            Self::Edge3 => Some((Self::Polyline, 2)),
+            Self::Quad8 | Self::Quad9 => Some((Self::Quad, 4)),
+            Self::Hex20 | Self::Hex27 => Some((Self::Hex, 8)),
+            _ => None,
+        }
+    }
+
+    /// True of hexahedra.
+    pub fn is_hex(self) -> bool {
+        matches!(self, Self::Hex | Self::Voxel | Self::Hex20 | Self::Hex27)
+    }
+
     /// The kind of VTK's cell type `number`, or the name of a kind that is not read.
     pub fn from_vtk(number: i64) -> Result<Self, &'static str> {
         Ok(match number {
@@ -33,12 +75,17 @@ impl CellKind {
             9 => Self::Quad,
             11 => Self::Voxel,
             12 => Self::Hex,
+            21 => Self::Edge3,
+            23 => Self::Quad8,
+            25 => Self::Hex20,
+            28 => Self::Quad9,
+            29 => Self::Hex27,
             6 => return Err("triangle strip"),
             10 => return Err("tetrahedron"),
             13 => return Err("wedge"),
             14 => return Err("pyramid"),
             15 | 16 => return Err("prism"),
-            21..=37 => return Err("cell of second order"),
+            22..=37 => return Err("cell of second order"),
             42 => return Err("polyhedron"),
             60..=81 => return Err("cell of higher order"),
             _ => return Err("cell of an unknown kind"),
@@ -53,11 +100,16 @@ impl CellKind {
             2 => (Self::Triangle, 3),
             3 => (Self::Quad, 4),
             5 => (Self::Hex, 8),
+            8 => (Self::Edge3, 3),
+            10 => (Self::Quad9, 9),
+            12 => (Self::Hex27, 27),
             15 => (Self::Skipped, 1),
+            16 => (Self::Quad8, 8),
+            17 => (Self::Hex20, 20),
             4 => return Err("tetrahedron"),
             6 => return Err("prism"),
             7 => return Err("pyramid"),
-            8..=14 | 16..=140 => return Err("element of second order or higher"),
+            9..=140 => return Err("element of second order or higher"),
             _ => return Err("element of an unknown type"),
         })
     }
@@ -78,27 +130,35 @@ impl CellKind {
             "T2D", "T3D", "B2", "B3", "PIPE", "ELBOW", "SAX", "R2D", "RAX", "RB", "MASS", "ROTARYI",
             "SPRING", "DASHPOT", "CONN", "GAP",
         ];
-        let in_family = |families: &[&str], nodes: char| {
+        let in_family = |families: &[&str], nodes: &str| {
             families.iter().any(|family| {
                 let rest = name.strip_prefix(family).and_then(|rest| rest.strip_prefix(nodes));
                 rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit()))
             })
         };
-        if in_family(&FACES, '4') {
+        if in_family(&FACES, "4") {
             Ok(Self::Quad)
-        } else if in_family(&FACES, '3') {
+        } else if in_family(&FACES, "3") {
             Ok(Self::Triangle)
-        } else if in_family(&SOLIDS, '8') {
+        } else if in_family(&SOLIDS, "8") {
             Ok(Self::Hex)
+        } else if in_family(&FACES, "8") {
+            Ok(Self::Quad8)
+        } else if in_family(&FACES, "9") {
+            Ok(Self::Quad9)
+        } else if in_family(&SOLIDS, "20") {
+            Ok(Self::Hex20)
+        } else if in_family(&SOLIDS, "27") {
+            Ok(Self::Hex27)
         } else if NO_FACES.iter().any(|family| name.starts_with(family)) {
             Ok(Self::Skipped)
-        } else if in_family(&SOLIDS, '4') {
+        } else if in_family(&SOLIDS, "4") {
             Err("tetrahedron")
-        } else if in_family(&SOLIDS, '6') {
+        } else if in_family(&SOLIDS, "6") {
             Err("wedge")
-        } else if in_family(&SOLIDS, '5') {
+        } else if in_family(&SOLIDS, "5") {
             Err("pyramid")
-        } else if in_family(&FACES, '6') || in_family(&FACES, '8') || name.starts_with("C3D") {
+        } else if in_family(&FACES, "6") || name.starts_with("C3D") {
             Err("element of second order")
         } else {
             Err("element of an unknown type")
@@ -113,5 +173,5 @@ pub(super) fn with_article(name: &str) -> String {
 }
 
 /// What to do about a cell that is not read.
-pub(super) const ONLY_THESE_CELLS: &str = "only triangles, quads, polygons and hexahedra of first order are \
-     read; remove the other cells or convert them first";
+pub(super) const ONLY_THESE_CELLS: &str = "only triangles, quads and polygons of first order, and hexahedra of \
+     first and second order with their faces and edges, are read; remove the other cells or convert them first";

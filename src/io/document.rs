@@ -57,6 +57,8 @@ pub struct Document {
     pub parent: Vec<FaceId>,
     /// What makes the hexes hexes of the second order; only written.
     pub second_order: Option<SecondOrder>,
+    /// Hexes of the second order in a file: their corners were read, their nodes on edges, on faces and inside left out.
+    pub linearized: usize,
     /// Faces in a file of hexes that are no faces of these, and were left out.
     pub dropped_faces: usize,
     /// The groups in a file of hexes that were left out, all or in part: of such faces, of edges and of nodes. One without
@@ -80,6 +82,7 @@ impl Document {
             level: Vec::new(),
             parent: Vec::new(),
             second_order: None,
+            linearized: 0,
             dropped_faces: 0,
             dropped_groups: Vec::new(),
             dropped_arrays: Vec::new(),

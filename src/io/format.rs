@@ -55,7 +55,7 @@ impl Format {
         self.is_written() && self != Self::Obj
     }
 
-    /// Are hexes of the second order written in this format?
+    /// Are hexes of the second order written in this format? They are read as linear ones.
     pub fn takes_second_order(self) -> bool {
         matches!(self, Self::Vtu | Self::Vtk | Self::Msh | Self::Inp)
     }

@@ -21,6 +21,7 @@ mod error;
 mod format;
 pub(crate) mod losses;
 mod matched_faces;
+mod middle_nodes;
 mod name_budget;
 mod node_numbers;
 mod refusal;

@@ -24,7 +24,7 @@ pub(super) mod code {
     pub const DUPLICATE_NUMBER: &str = "duplicate-number";
     /// A cell has too few nodes for its kind, or too many.
     pub const CELL_SIZE: &str = "cell-size";
-    /// A kind of cell that is neither polygon nor hexahedron of first order.
+    /// A kind of cell that is neither polygon of first order nor hexahedron.
     pub const UNSUPPORTED_CELL: &str = "unsupported-cell";
     /// A version of the format that is not read.
     pub const UNSUPPORTED_VERSION: &str = "unsupported-version";

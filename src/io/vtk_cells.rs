@@ -122,7 +122,7 @@ fn cell_attributes(
     types: &[i64],
     named: &Names,
 ) -> (CellAttributes, Vec<&'static str>) {
-    let is_hex = |number: &i64| matches!(CellKind::from_vtk(*number), Ok(CellKind::Hex | CellKind::Voxel));
+    let is_hex = |number: &i64| CellKind::from_vtk(*number).is_ok_and(CellKind::is_hex);
     let has_hexes = types.iter().any(is_hex);
     let mut read = Vec::new();
     let mut whole = |name: &'static str| {

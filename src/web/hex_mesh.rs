@@ -31,9 +31,18 @@ pub struct HexMesh {
     pub(super) mesh: Arc<Mesh>,
     /// Hexes that were numbered inside out, and were turned.
     pub(super) turned: usize,
-    /// Faces in the file that are no faces of the hexes.
+    dropped: Dropped,
+}
+
+/// What was in the file and is not in the mesh.
+#[derive(Clone, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Dropped {
+    /// Hexes of the second order, of which the corners were read.
+    linearized: usize,
+    /// Faces that are no faces of the hexes.
     dropped_faces: usize,
-    /// Arrays in the file that are not read.
+    /// Arrays that are not read.
     dropped_arrays: Vec<String>,
 }
 
@@ -48,8 +57,8 @@ struct Info {
     hash: MeshHash,
     turned: usize,
     grouped_faces: usize,
-    dropped_faces: usize,
-    dropped_arrays: Vec<String>,
+    #[serde(flatten)]
+    dropped: Dropped,
     losses: BTreeMap<&'static str, Vec<String>>,
     groups: Vec<Group>,
     /// Null for a mesh without hexes.
@@ -104,12 +113,14 @@ impl HexMesh {
     /// What the format's reader refuses, unknown formats, files of surfaces, and more hexes than memory holds.
     pub fn read(bytes: &[u8], format: Option<String>) -> Result<Self, Failure> {
         let document = file::read(bytes, format)?;
-        let Document { mesh: AnyMesh::Hexes(mesh), tags, dropped_faces, dropped_arrays, .. } = document
+        let Document { mesh: AnyMesh::Hexes(mesh), tags, linearized, dropped_faces, dropped_arrays, .. } =
+            document
         else {
             let message = "the file holds a surface; give a mesh of hexahedra, or make a grid around it";
             return Err(Failure::input("hexes-expected", &message));
         };
-        Ok(Self { dropped_faces, dropped_arrays, ..Self::new(Mesh { tags, ..mesh })? })
+        let dropped = Dropped { linearized, dropped_faces, dropped_arrays };
+        Ok(Self { dropped, ..Self::new(Mesh { tags, ..mesh })? })
     }
 
     /// Hexes given as arrays: x, y, z of each node, and the eight nodes of each hex in the order of VTK_HEXAHEDRON.
@@ -137,7 +148,7 @@ impl HexMesh {
             }
             other => other.into(),
         })?;
-        Ok(Self { mesh: Arc::new(mesh), turned: 0, dropped_faces: 0, dropped_arrays: Vec::new() })
+        Ok(Self { mesh: Arc::new(mesh), turned: 0, dropped: Dropped::default() })
     }
 
     /// What is known of the mesh: an object with the fields of `HexInfo` in `www/lib/results.ts`.
@@ -168,12 +179,12 @@ impl HexMesh {
             return Err(limit.exceeded(hexes as f64, "give a smaller mesh"));
         }
         let turned = on_pool(|| orient_hexes(&mut mesh)).unwrap_or(0);
-        Ok(Self { mesh: Arc::new(mesh), turned, dropped_faces: 0, dropped_arrays: Vec::new() })
+        Ok(Self { mesh: Arc::new(mesh), turned, dropped: Dropped::default() })
     }
 }
 
 impl Info {
-    fn of(HexMesh { mesh, turned, dropped_faces, dropped_arrays }: &HexMesh) -> Self {
+    fn of(HexMesh { mesh, turned, dropped }: &HexMesh) -> Self {
         let topology = HexTopology::of(mesh);
         let defects = check_hexes_on(mesh, &topology, &Silent).expect("nobody stops it");
         Self {
@@ -182,8 +193,7 @@ impl Info {
             hash: mesh_hash(&mesh.positions, &mesh.hexes),
             turned: *turned,
             grouped_faces: mesh.groups.sides().len(),
-            dropped_faces: *dropped_faces,
-            dropped_arrays: dropped_arrays.clone(),
+            dropped: dropped.clone(),
             losses: file::losses(&mesh.tags, Some(&mesh.groups)),
             groups: mesh.groups.tags().sets.iter().map(Group::from).collect(),
             quality: hex_quality(mesh).report(),

@@ -80,6 +80,7 @@ describe.each([1, 2, 4])('hexes on %i threads', (threads) => {
       bounds: { min: [0, 0, 0], max: [2, 1, 1] },
       turned: 0,
       groupedFaces: 3,
+      linearized: 0,
       droppedFaces: 0,
       groups: [
         { names: [], number: 4 },

@@ -92,6 +92,8 @@ export interface HexInfo {
   turned: number;
   /** Faces that are in groups. */
   groupedFaces: number;
+  /** Hexes of the second order in the file, of which the corners were read: the nodes on edges, on faces and inside were left out. */
+  linearized: number;
   /** Faces in the file that are no faces of the hexes, and were left out. */
   droppedFaces: number;
   /** Arrays of a VTU or legacy VTK file that are no tags, and were left out. */

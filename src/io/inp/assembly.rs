@@ -239,7 +239,7 @@ fn collect(
     let set_of_element = sets_of_elements(part, instance, tags)?;
     let mut order: Vec<u32> = (0..part.elements.len() as u32).collect();
     order.sort_by_key(|&element| part.elements[element as usize].number);
-    let mut nodes = [0; 8];
+    let mut nodes = [0; 27];
     for element in order {
         let set = set_of_element[element as usize];
         let element = &part.elements[element as usize];

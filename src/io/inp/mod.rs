@@ -9,7 +9,7 @@
 //! Polygons of more than four nodes are refused; polylines and sharp edges are not written.
 //!
 //! Read: `*NODE`, `*ELEMENT` (shells, membranes, plane, axisymmetric, rigid and surface elements of three and four
-//! nodes, solids of eight; in any integration), `*ELSET` with `GENERATE` and by name, `*SURFACE` of faces of solids,
+//! nodes, solids of eight; the corners of solids of 20 and 27 nodes and of faces of 8 and 9 beside them; in any integration), `*ELSET` with `GENERATE` and by name, `*SURFACE` of faces of solids,
 //! parts and their
 //! instances with translation and rotation. Keywords that say nothing of the mesh are stepped over;
 //! those that make nodes or elements, or read other files, are refused. Faces `S1` to `S6` of hexahedra are those of

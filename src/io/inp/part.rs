@@ -90,12 +90,10 @@ impl Part {
             let message = format!("{word} is {name}; {ONLY_THESE_CELLS}");
             keyword.refuse(code::UNSUPPORTED_CELL, message)
         })?;
-        let node_count: u8 = match kind {
-            CellKind::Triangle => 3,
-            CellKind::Quad => 4,
-            CellKind::Hex => 8,
-            _ => return Ok(()),
-        };
+        if kind == CellKind::Skipped {
+            return Ok(());
+        }
+        let node_count = *kind.size().start() as u8;
         let first = self.elements.len() as u32;
         while let Some(line) = lines.next_data() {
             self.read_element(kind, node_count, line, lines)?;

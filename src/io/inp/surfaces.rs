@@ -5,7 +5,6 @@ use std::rc::Rc;
 
 use super::lines::{Keyword, Line, Lines};
 use super::part::Part;
-use crate::io::cell_kind::CellKind;
 use crate::io::tokens::parse_integer;
 use crate::mesh::numbering::hex::FACES;
 
@@ -144,6 +143,6 @@ impl Part {
     pub fn nodes_of_face(&self, element: u32, face: usize) -> Option<[u32; 4]> {
         let element = &self.elements[element as usize];
         let nodes = self.nodes_of(element);
-        (element.kind == CellKind::Hex).then(|| FACES[face].map(|k| nodes[usize::from(k)]))
+        element.kind.is_hex().then(|| FACES[face].map(|k| nodes[usize::from(k)]))
     }
 }

@@ -133,7 +133,7 @@ impl Elements {
             self.elements.sort_by_key(|element| element.number);
         }
         self.merge_repeated(groups)?;
-        let mut indices = [0; 8];
+        let mut indices = [0; 27];
         for element in &self.elements {
             let indices = &mut indices[..usize::from(element.node_count)];
             for (index, &number) in indices.iter_mut().zip(&self.nodes[element.first_node..]) {
@@ -227,8 +227,8 @@ fn read_tags(
 fn dimension(kind: CellKind) -> i64 {
     match kind {
         CellKind::Skipped => 0,
-        CellKind::Polyline => 1,
-        CellKind::Hex | CellKind::Voxel => 3,
+        CellKind::Polyline | CellKind::Edge3 => 1,
+        kind if kind.is_hex() => 3,
         _ => 2,
     }
 }

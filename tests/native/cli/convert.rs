@@ -2,7 +2,7 @@
 
 use hexmill::io::obj;
 
-use super::{folder_with, hexmill, succeed};
+use super::{folder_holding, folder_with, hexmill, succeed};
 
 #[test]
 fn obj_to_obj_keeps_everything() {
@@ -30,6 +30,19 @@ fn every_format_keeps_nodes_and_faces() {
         succeed(&folder, &["convert", &file, "-o", "back.obj"]);
         assert!(read("back.obj") == read("bishop.obj"), "{extension}");
     }
+}
+
+#[test]
+fn hexes_of_the_second_order_become_linear_with_a_warning() {
+    let folder = folder_holding("two.inp", include_str!("../../fixtures/gmsh_hex20.inp"));
+    let run = hexmill(&folder, &["convert", "two.inp", "-o", "two.vtu"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let told = "warning: two.inp: 2 hexes of the second order are read as linear: the nodes on edges, on faces and inside \
+                are left out\n";
+    assert_eq!(run.stderr, told);
+    let run = hexmill(&folder, &["convert", "two.inp", "-o", "two.vtu", "--quiet"]);
+    assert_eq!(run.stderr, "");
+    assert_eq!(hexmill(&folder, &["check", "two.vtu"]).code, Some(0));
 }
 
 #[test]

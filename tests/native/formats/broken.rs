@@ -236,7 +236,7 @@ fn inp() {
         "'C3D4' is a tetrahedron",
     );
     check(
-        &format!("{nodes}*ELEMENT, TYPE=C3D20R\n"),
+        &format!("{nodes}*ELEMENT, TYPE=C3D10\n"),
         "unsupported-cell",
         Some(5),
         "is an element of second order",

@@ -24,6 +24,7 @@ pub fn all() -> impl Iterator<Item = (&'static str, &'static [u8], Format)> {
         "gmsh_solid_41_ascii.msh" "gmsh_solid_41_binary.msh" "meshio_solid_41_binary.msh"
         "gmsh_surface.inp" "gmsh_solid.inp" "meshio_surface.inp" "meshio_solid.inp"
         "meshio_surface.mesh" "meshio_solid.mesh"
+        "gmsh_hex20.msh" "gmsh_hex27.msh" "gmsh_hex20.inp" "gmsh_hex27.vtk" "meshio_hex27.vtu"
     ];
     files.into_iter().map(|(name, bytes)| {
         let extension = name.rsplit('.').next().unwrap();
@@ -65,6 +66,7 @@ const SOLID: [Cell; 2] = [(&[0, 1, 4, 3, 6, 7, 10, 9], 1), (&[1, 2, 5, 4, 7, 8, 
 fn every_fixture_holds_its_mesh() {
     for (name, bytes, format) in all().filter(|(name, ..)| !name.contains("_lz")) {
         let document = read(bytes, format).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(document.linearized, if name.contains("_hex2") { 2 } else { 0 }, "{name}");
         let (points, cells, wanted): (_, Vec<Vec<NodeId>>, &[Cell]) = match &document.mesh {
             AnyMesh::Hexes(mesh) => {
                 (&mesh.positions, mesh.hexes.iter().map(|h| h.to_vec()).collect(), &SOLID)

@@ -11,6 +11,7 @@ mod hostile;
 mod mutations;
 mod round_trip;
 mod second_order;
+mod second_order_read;
 mod several_groups;
 mod stl;
 mod worlds;

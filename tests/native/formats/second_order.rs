@@ -32,7 +32,7 @@ const ABAQUS: Order = Order {
 };
 
 /// Two hexes side by side, no two nodes of which are alike, the first's first face in a group.
-fn mesh() -> HexMesh {
+pub fn mesh() -> HexMesh {
     let bounds = Aabb { min: Point::ZERO, max: Point::new(4.0, 2.0, 2.0) };
     let options = GridOptions { spacing: 2.0, margin: 0.0, fitted: false, max_hexes: 10 };
     let mut mesh = hex_grid(bounds, &options).expect("a grid");
@@ -42,7 +42,7 @@ fn mesh() -> HexMesh {
     mesh
 }
 
-fn document(hex: SecondOrderHex) -> Document {
+pub fn document(hex: SecondOrderHex) -> Document {
     let mesh = mesh();
     let second_order = Some(SecondOrder::straight(&mesh, hex));
     Document { second_order, ..Document::from(mesh) }
@@ -72,7 +72,7 @@ fn text(hex: SecondOrderHex, format: Format) -> String {
     String::from_utf8(write(&document(hex), format).expect("the format takes it")).expect("text")
 }
 
-const KINDS: [(SecondOrderHex, usize); 2] = [(SecondOrderHex::Hex20, 20), (SecondOrderHex::Hex27, 27)];
+pub const KINDS: [(SecondOrderHex, usize); 2] = [(SecondOrderHex::Hex20, 20), (SecondOrderHex::Hex27, 27)];
 
 #[test]
 fn legacy_vtk_has_vtks_order() {

@@ -147,6 +147,8 @@ export class Workbench {
       });
       const cells = model instanceof HexMesh ? counted(model.info.hexes, 'hex', 'hexes') : counted(model.info.faces, 'face');
       this.log.add('info', `Read ${name}: ${cells}, ${counted(model.info.nodes, 'node')}.`);
+      const linearized = model instanceof HexMesh ? model.info.linearized : 0;
+      if (linearized > 0) this.log.add('warning', `${name}: ${counted(linearized, 'hex', 'hexes')} of the second order read as linear: the nodes on edges, on faces and inside are left out`);
       const arrays = model.info.droppedArrays;
       if (arrays.length > 0) this.log.add('warning', `${name}: these arrays are no tags of cells, and are left out: ${arrays.join(', ')}`);
       for (const defect of model.info.defects) this.log.add('warning', `${name}: ${defect}`);

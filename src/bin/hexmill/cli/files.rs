@@ -107,11 +107,21 @@ impl Loaded {
         std::mem::replace(&mut self.document, Document::from(PolygonMesh::default()))
     }
 
-    /// Warns of faces, groups and arrays in a file that could not be kept.
+    /// Warns of nodes, faces, groups and arrays in a file that could not be kept.
     pub(crate) fn warn_of_dropped(&self, quiet: bool) {
         let Document { dropped_faces: count, dropped_groups: groups, dropped_arrays: arrays, .. } =
             &self.document;
         let path = self.path.display();
+        if self.document.linearized > 0 && !quiet {
+            tell(&format!(
+                "warning: {path}: {} read as linear: the nodes on edges, on faces and inside are left out\n",
+                counted(
+                    self.document.linearized,
+                    "hex of the second order is",
+                    "hexes of the second order are"
+                )
+            ));
+        }
         if *count > 0 && !quiet {
             tell(&format!(
                 "warning: {path}: {} left out, as no face of these\n",
