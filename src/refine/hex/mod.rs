@@ -44,6 +44,7 @@ mod couple;
 mod divide;
 mod folds;
 mod forecast;
+mod grouping;
 mod heritage;
 mod input;
 mod interface;

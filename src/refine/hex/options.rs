@@ -21,9 +21,10 @@ pub enum Method {
     Two,
     /// 3-refinement: a pillow, then hexes in 27 and a template that needs no groups. Any set.
     Three,
-    /// Method II. Where the interface within the input's own hexes can be grouped two by two, these need no families,
-    /// and hexes away from it stay as they are; else all hexes are refined once, as with Method II told by name. For
-    /// a single stage: 3-refinement of sets whose interface cannot be grouped.
+    /// Method II. The input's own hexes need no families where the interface within them can be grouped two by two. If it
+    /// cannot, whole blocks of two by two by two hexes are refined, and hexes away from them stay as they are; only where
+    /// that does not help, all hexes are refined once, as with Method II told by name. For a single stage: 3-refinement
+    /// of sets whose interface cannot be grouped.
     #[default]
     Auto,
 }
@@ -100,8 +101,9 @@ impl Default for HexOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Added {
-    /// Hexes of the input that are refined once although nothing asks for it, so that all elements are in families of eight:
-    /// by Methods I and II always, by [`Method::Auto`] where the interface cannot be grouped two by two.
+    /// Hexes of the input that are refined once although nothing asks for it: all of them by Methods I and II, so that
+    /// elements are in families of eight; those of blocks, or all, by [`Method::Auto`] where the interface cannot be grouped
+    /// two by two.
     pub base: usize,
     /// What the rules of conforming refinement asked for; also after the elements below were added, whose siblings
     /// count among `families`.

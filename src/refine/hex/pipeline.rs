@@ -68,9 +68,7 @@ impl HexPlan<'_> {
     pub fn carry_out(mut self, monitor: &dyn Monitor) -> Result<RefinedHexes, HexRefineError> {
         let monitor = &Rising { inner: monitor, told: Mutex::default() };
         let mut made = Made::of_input(&self.input, monitor)?;
-        if let Some(blocks) = self.blocks {
-            made.mesh.octant.clone_from(&blocks.octant);
-        }
+        made.take_octants(&self);
         if self.outline.is_some() {
             let surface = boundary_surface(&self.input, monitor)?;
             let mut restarts = 0;
@@ -97,6 +95,7 @@ impl HexPlan<'_> {
                 *(if tangled.is_some() { &mut self.added.repairs } else { &mut self.added.conflicts }) +=
                     more.elements;
                 made.back_to(more.coarsest, &self.input, monitor)?;
+                made.take_octants(&self);
             }
         }
         let Self { input, added, decided, .. } = self;
@@ -154,6 +153,13 @@ impl Made {
     fn of_input(input: &HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let mesh = StageMesh::of_mesh(input, monitor)?;
         Ok(Self { mesh, number: 0, reports: Vec::new(), kept: Vec::new() })
+    }
+
+    /// Before the first stage, takes from the plan how the hexes of the input stand in blocks, if they do.
+    fn take_octants(&mut self, plan: &HexPlan) {
+        if let Some(blocks) = plan.blocks.filter(|_| self.number == 0) {
+            self.mesh.octant.clone_from(&blocks.octant);
+        }
     }
 
     fn push(&mut self, next: StageResult) {

@@ -3,20 +3,22 @@
 //! 1. Decide level by level what is wanted finer ([`HexRefinement`]).
 //! 2. Close the trees. Octrees: whole families around a volume node, strong balance, what the method's templates fit, and
 //!    whole blocks where hexes of level 0 stand in blocks of two by two by two; trees of 27: graded levels.
-//! 3. With [`Method::Auto`], ask whether the interface within level 0 can be grouped two by two. If it cannot,
-//!    all of level 0 is refined, which makes families of everything.
+//! 3. With [`Method::Auto`], ask whether the interface within level 0 can be grouped two by two. If it cannot, whole
+//!    blocks of hexes are refined (`grouping`), or, where there are none, all of level 0, which makes families of
+//!    everything.
 //! 4. Look at each level's interface (`forecast`). Where it cannot be separated, refine more, and close again.
 
 use std::borrow::Cow;
 
 use super::attempt::without_template;
 use super::forecast::{HexForecast, StageForecast, foresee};
+use super::grouping::Grouping;
 use super::heritage::Heritage;
 use super::options::{Added, Growth, HexOptions, HexRefineError, Method, check_size};
 use super::outline::Outline;
 use super::refinement::HexRefinement;
 use super::stage::{StageError, StageMesh, can_be_joined};
-use super::trees::Trees;
+use super::trees::{TreeLevel, Trees};
 use crate::geometry::Point;
 use crate::mesh::HexMesh;
 use crate::{Monitor, Stage};
@@ -198,7 +200,7 @@ impl<'a> HexPlan<'a> {
     fn close(&mut self, trees: &mut Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
         loop {
             self.close_once(trees, monitor)?;
-            let rest = self.rest_of_blocks(trees);
+            let rest = self.blocks.map_or_else(Vec::new, |of| rest_of_blocks(&of.block, trees.level(0)));
             if rest.is_empty() {
                 return Ok(());
             }
@@ -229,17 +231,6 @@ impl<'a> HexPlan<'a> {
         Ok(())
     }
 
-    /// The hexes of level 0 in blocks that are refined in part, and are not refined yet.
-    fn rest_of_blocks(&self, trees: &Trees) -> Vec<u32> {
-        let Some(HexBlocks { block: blocks, .. }) = self.blocks else { return Vec::new() };
-        let base = trees.level(0);
-        let bound = blocks.iter().max().map_or(0, |&last| last as usize + 1);
-        let mut is_wanted = vec![false; bound];
-        base.refined.iter().for_each(|&e| is_wanted[blocks[e as usize] as usize] = true);
-        let is_rest = |&e: &u32| is_wanted[blocks[e as usize] as usize] && !base.is_refined[e as usize];
-        (0..blocks.len() as u32).filter(is_rest).collect()
-    }
-
     /// Step 3.
     fn group(&mut self, trees: &mut Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
         let base = trees.level(0);
@@ -253,13 +244,36 @@ impl<'a> HexPlan<'a> {
         if can_be_joined(&mesh, base.is_refined, monitor)? {
             return Ok(());
         }
+        let grouping = Grouping::of(mesh.positions.len(), &mesh.hexes, monitor)?;
+        loop {
+            let base = trees.level(0);
+            let rest = rest_of_blocks(&grouping.blocks(base.is_refined, monitor)?, base);
+            if rest.is_empty() {
+                break;
+            }
+            self.refine_unasked(trees, &rest, monitor)?;
+            if can_be_joined(&mesh, trees.level(0).is_refined, monitor)? {
+                return Ok(());
+            }
+        }
+        let base = trees.level(0);
         let rest = (0..base.elements.len() as u32).filter(|&e| !base.is_refined[e as usize]);
         let rest: Vec<u32> = rest.collect();
+        self.refine_unasked(trees, &rest, monitor)
+    }
+
+    /// Refines hexes of the input for the interface's sake.
+    fn refine_unasked(
+        &mut self,
+        trees: &mut Trees,
+        rest: &[u32],
+        monitor: &dyn Monitor,
+    ) -> Result<(), HexRefineError> {
         let leaves = trees.leaf_count() + (trees.children() - 1) * rest.len();
         check_size(self.options, 1, leaves as u64)?;
-        self.may_grow(trees, (0, &rest), "because the interface cannot be grouped two by two")?;
+        self.may_grow(trees, (0, rest), "because the interface cannot be grouped two by two")?;
         self.added.base += rest.len();
-        trees.split(0, &rest, monitor)?;
+        trees.split(0, rest, monitor)?;
         self.close(trees, monitor)
     }
 
@@ -328,4 +342,13 @@ impl<'a> HexPlan<'a> {
         let same = before.refined.iter().zip(after).take_while(|(before, after)| before.len() == after.len());
         Ok(More { elements: more.len(), coarsest: same.count().min(number) })
     }
+}
+
+/// The hexes of level 0 in blocks that are refined in part, and are not refined yet.
+fn rest_of_blocks(blocks: &[u32], base: TreeLevel) -> Vec<u32> {
+    let bound = blocks.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut is_wanted = vec![false; bound];
+    base.refined.iter().for_each(|&e| is_wanted[blocks[e as usize] as usize] = true);
+    let is_rest = |&e: &u32| is_wanted[blocks[e as usize] as usize] && !base.is_refined[e as usize];
+    (0..blocks.len() as u32).filter(is_rest).collect()
 }

@@ -27,7 +27,7 @@ fn refined(folder: &TempDir, more: &[&str]) -> Run {
 fn what_is_refined_unasked_is_told_before_the_work_and_recorded() {
     let folder = folder_with_grid();
     let run = refined(&folder, &["--method", "two", "--region", "box:1,1,1,3,3,3:level=2"]);
-    let told = "  56 elements are refined that nothing asks for, so that all are in families of eight\n";
+    let told = "  56 elements are refined that nothing asks for, so that elements are in families or blocks of eight\n";
     assert!(run.stderr.contains(told), "{}", run.stderr);
     assert!(run.stdout.contains("  672 hexes are transitions of the last level\n"), "{}", run.stdout);
     let record = json(&folder, "r.json");

@@ -7,7 +7,7 @@ use hexmill::refine::hex::{HexOptions, HexPlan, HexRefinement, Method, RefinedHe
 use hexmill::sizing::{Region, Shape, Target};
 
 use super::acceptance::{Boundary, World, block, judged};
-use super::meshes::{cells, cubes, cylinder};
+use super::meshes::{Numbers, cells, cubes, cylinder};
 
 fn options(method: Method, regions: Vec<Region>) -> HexOptions {
     HexOptions { method, regions, ..HexOptions::default() }
@@ -117,8 +117,12 @@ fn sets_that_can_be_grouped_need_no_families() {
     let even = || block([1.0; 3], [3.0; 3], 1);
     assert_eq!(hexes(&cubes(4), Method::Auto, even()), 64 + 7 * 8 + 7 * 24);
     assert_eq!(hexes(&cubes(4), Method::Two, even()), 512, "told by name it makes families first");
-    // Three faces cannot be grouped two by two.
-    assert_eq!(hexes(&cubes(5), Method::Auto, block([1.0; 3], [4.0; 3], 1)), 1000);
+    // Three faces cannot be grouped two by two, but four can: whole blocks are refined.
+    assert_eq!(hexes(&cubes(5), Method::Auto, block([1.0; 3], [4.0; 3], 1)), 125 + 7 * 64 + 7 * 48);
+    assert_eq!(hexes(&cubes(5), Method::Auto, block([2.0; 3], [3.0; 3], 1)), 125 + 7 * 8 + 7 * 24);
+    // There are none that have both ends of five.
+    let ends = cells([5, 4, 4], |_| true, |p| p);
+    assert_eq!(hexes(&ends, Method::Auto, block([0.0, 1.0, 1.0], [5.0, 3.0, 3.0], 1)), 80 * 8);
     // Faces side by side in a group may not fold by more than 30 degrees.
     for (degrees, expected) in [(25.0f64, 64 + 7 * 8 + 7 * 24), (35.0, 512)] {
         let rise = (degrees / 2.0).to_radians().tan();
@@ -170,5 +174,41 @@ fn the_forecast_is_what_is_made() {
         let made = refined.stages.iter().map(|s| (s.refined, s.interface_faces, s.transition));
         assert!(told.eq(made), "{method:?}: {forecast:?}, {:?}", refined.stages);
         assert!(forecast.transition > 0 && forecast.bytes > 0);
+    }
+}
+
+/// Sets that cannot be grouped take whole blocks with them, across the cells of an o-grid too, and not all of the input.
+#[test]
+fn random_balls_are_refined_in_blocks() {
+    let inputs = [
+        ("cubes", cubes(9), Boundary::Planar),
+        ("cylinder", cylinder(), Boundary::Cylinder),
+        ("ball", super::meshes::ball(), Boundary::Sphere),
+    ];
+    for (name, input, boundary) in inputs {
+        let middle = input.positions.iter().sum::<Point>() / input.positions.len() as f64;
+        let size = input.positions.iter().map(|p| (*p - middle).abs().max_element()).fold(0.0, f64::max);
+        let (mut in_blocks, mut of_all) = (0, 0);
+        for seed in 0..8 {
+            let mut numbers = Numbers(seed);
+            let center = middle.to_array().map(|m| m + 0.8 * size * (2.0 * numbers.next() - 1.0));
+            let level = 1 + (seed % 3) as u8;
+            let regions = vec![ball(center, 0.2 * size, level)];
+            let name = format!("ball {seed} of level {level} in {name}");
+            let world = World { name, input: input.clone(), regions, boundary, least: [0.0; 2] };
+            let [auto, two] = [Method::Auto, Method::Two].map(|method| judged(&world, method));
+            println!(
+                "{}: {} hexes, worst {:.3}; of all {}, worst {:.3}",
+                world.name,
+                auto.refined.mesh.hexes.len(),
+                auto.worst,
+                two.refined.mesh.hexes.len(),
+                two.worst
+            );
+            in_blocks += auto.refined.mesh.hexes.len();
+            of_all += two.refined.mesh.hexes.len();
+        }
+        println!("{name}: {in_blocks} hexes, {of_all} where all are refined once");
+        assert!(10 * in_blocks < 9 * of_all, "{name}: {in_blocks} of {of_all}");
     }
 }

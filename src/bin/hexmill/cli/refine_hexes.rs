@@ -165,7 +165,7 @@ fn memory_in_words(bytes: u64) -> String {
 fn plan_in_words(plan: &HexPlan) -> String {
     let (Added { base, closure, conflicts, .. }, forecast) = (plan.added(), plan.forecast());
     let reasons = [
-        (base, "that nothing asks for, so that all are in families of eight"),
+        (base, "that nothing asks for, so that elements are in families or blocks of eight"),
         (closure.families, "to complete families of eight"),
         (closure.balance, "to grade levels by one"),
         (closure.method, "for the method's templates"),
