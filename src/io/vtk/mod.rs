@@ -5,13 +5,14 @@
 //! `Level`, `Parent` and `Tag`, coordinates as the shortest decimals that read back alike. The format has no room for the names behind the tags'
 //! numbers that meshio would accept; VTU keeps them. Polylines and sharp edges are not written.
 //!
-//! Read: versions 1 to 5.1, ASCII and binary, unstructured grids and polygonal data; cell scalars and
-//! fields. Other attributes are stepped over.
+//! Read: versions 1 to 5.1, ASCII and binary, unstructured grids, polygonal data and structured datasets
+//! (points, rectilinear grids, grids; quads where a dimension is 1); cell scalars and fields. Other attributes are stepped over.
 
 mod attributes;
 mod cells;
 mod file;
 mod read;
+mod structured;
 mod write;
 
 pub use read::read;

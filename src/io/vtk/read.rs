@@ -3,9 +3,10 @@
 use super::attributes::{Array, read_attribute};
 use super::cells::{CellList, read_cells};
 use super::file::LegacyFile;
+use super::structured::{Kind, Structured};
 use crate::geometry::Point;
 use crate::io::cell_collector::CellCollector;
-use crate::io::refusal::{code, excerpt, refuse, refuse_not_finite};
+use crate::io::refusal::{code, excerpt, refuse_not_finite};
 use crate::io::scalars::Scalar;
 use crate::io::tag_numbers::Names;
 use crate::io::vtk_cells::{CellData, collect_cells, is_wanted};
@@ -14,7 +15,7 @@ use crate::io::{Document, Format, ReadError};
 /// The mesh in a legacy VTK file.
 pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
     let mut file = LegacyFile::open(bytes)?;
-    let mut grid = Grid::default();
+    let mut grid = Grid { size: bytes.len(), ..Grid::default() };
     // What the attributes to come belong to: how many there are, and whether they are cells.
     let mut owner = None;
     while let Some(word) = file.tokens.next() {
@@ -46,6 +47,11 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
 /// The sections so far. The four lists of polygonal data stand in the order of its cell data.
 #[derive(Default)]
 struct Grid {
+    /// The size of the file.
+    size: usize,
+    has_dataset: bool,
+    /// The dataset, if it is structured.
+    structured: Option<Structured>,
     positions: Vec<Point>,
     cells: CellList,
     types: Vec<i64>,
@@ -59,8 +65,17 @@ const POLYGONAL_TYPES: [i64; 3] = [2, 4, 7];
 impl Grid {
     /// Reads a section of the grid itself; false if `section` is none.
     fn read_section(&mut self, section: &[u8], file: &mut LegacyFile<'_>) -> Result<bool, ReadError> {
+        if let Some(structured) = &mut self.structured {
+            if section == b"POINTS" && structured.has_points() {
+                self.positions = read_points(file)?;
+                return Ok(true);
+            }
+            if section != b"DATASET" {
+                return structured.read_section(section, file);
+            }
+        }
         match section {
-            b"DATASET" => check_dataset(file)?,
+            b"DATASET" => self.read_dataset(file)?,
             b"POINTS" => self.positions = read_points(file)?,
             b"CELLS" => self.cells = read_cells(file)?,
             b"CELL_TYPES" => {
@@ -82,7 +97,35 @@ impl Grid {
         Ok(true)
     }
 
+    fn read_dataset(&mut self, file: &mut LegacyFile<'_>) -> Result<(), ReadError> {
+        if std::mem::replace(&mut self.has_dataset, true) {
+            return Err(file.tokens.refuse(code::SYNTAX, "the file has a second dataset"));
+        }
+        let name = file.tokens.expect("the kind of dataset")?.to_ascii_uppercase();
+        let kind = match name.as_slice() {
+            b"UNSTRUCTURED_GRID" | b"POLYDATA" => return Ok(()),
+            b"STRUCTURED_POINTS" => Kind::Points,
+            b"RECTILINEAR_GRID" => Kind::Rectilinear,
+            b"STRUCTURED_GRID" => Kind::Grid,
+            _ => {
+                let message = format!(
+                    "the dataset is {}; unstructured and structured grids, structured points, rectilinear grids and \
+                     polygonal data are read — convert it, in ParaView for instance",
+                    excerpt(&name)
+                );
+                return Err(file.tokens.refuse(code::UNSUPPORTED_FEATURE, message));
+            }
+        };
+        self.structured = Some(Structured::new(kind, self.size));
+        Ok(())
+    }
+
     fn finish(mut self) -> Result<Document, ReadError> {
+        if let Some(structured) = self.structured.take() {
+            let (positions, collector, types) = structured.collect(self.positions)?;
+            let (attributes, dropped_arrays) = self.cell_data.attributes(&types, &Names::default());
+            return Ok(Document { dropped_arrays, ..collector.finish(positions, attributes)? });
+        }
         for (list, number) in self.polygonal.iter().zip(POLYGONAL_TYPES) {
             self.types.resize(self.types.len() + list.ends.len(), number);
             self.cells.append(list);
@@ -92,18 +135,6 @@ impl Grid {
         let (attributes, dropped_arrays) = self.cell_data.attributes(&self.types, &Names::default());
         Ok(Document { dropped_arrays, ..collector.finish(self.positions, attributes)? })
     }
-}
-
-fn check_dataset(file: &mut LegacyFile<'_>) -> Result<(), ReadError> {
-    let kind = file.tokens.expect("the kind of dataset")?.to_ascii_uppercase();
-    if kind == b"UNSTRUCTURED_GRID" || kind == b"POLYDATA" {
-        return Ok(());
-    }
-    let message = format!(
-        "the dataset is {}; UNSTRUCTURED_GRID and POLYDATA are read — convert it, in ParaView for instance",
-        excerpt(&kind)
-    );
-    Err(refuse(Format::Vtk, file.tokens.line(), code::UNSUPPORTED_FEATURE, message))
 }
 
 fn read_points(file: &mut LegacyFile<'_>) -> Result<Vec<Point>, ReadError> {

@@ -53,7 +53,8 @@ fn vtk() {
     let grid = format!("{head}DATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n");
     check("", "not-this-format", Some(1), "# vtk DataFile Version");
     check("# vtk DataFile Version 3.0\ntitle\nBASE64\n", "syntax", Some(3), "ASCII or BINARY");
-    check(&format!("{head}DATASET STRUCTURED_GRID\n"), "unsupported-feature", Some(4), "STRUCTURED_GRID");
+    check(&format!("{head}DATASET TABLE\n"), "unsupported-feature", Some(4), "'TABLE'");
+    check(&format!("{grid}DATASET POLYDATA\n"), "syntax", Some(7), "second dataset");
     check(&format!("{head}POINTS 1000000000000 double\n0 0 0"), "truncated", Some(4), "room for");
     check(&format!("{head}POINTS 1 dozen\n0 0 0"), "syntax", Some(4), "'dozen'");
     check(&format!("{grid}CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n10\n"), "unsupported-cell", None, "tetrahedron");

@@ -24,6 +24,8 @@ pub fn all() -> impl Iterator<Item = (&'static str, &'static [u8], Format)> {
         "gmsh_solid_41_ascii.msh" "gmsh_solid_41_binary.msh" "meshio_solid_41_binary.msh"
         "gmsh_surface.inp" "gmsh_solid.inp" "meshio_surface.inp" "meshio_solid.inp"
         "meshio_surface.mesh" "meshio_solid.mesh"
+        "vtk_structured_points_ascii.vtk" "vtk_structured_points_binary.vtk" "vtk_structured_rectilinear_ascii.vtk"
+        "vtk_structured_rectilinear_binary.vtk" "vtk_structured_grid_ascii.vtk" "vtk_structured_grid_binary.vtk"
         "gmsh_hex20.msh" "gmsh_hex27.msh" "gmsh_hex20.inp" "gmsh_hex27.vtk" "meshio_hex27.vtu"
     ];
     files.into_iter().map(|(name, bytes)| {

@@ -14,4 +14,5 @@ mod second_order;
 mod second_order_read;
 mod several_groups;
 mod stl;
+mod structured;
 mod worlds;
