@@ -43,7 +43,11 @@ fn loss(what: &str, tags: &Tags, format: Format) -> Option<String> {
     };
     let words = |set: &TagSet| labels(set).iter().map(Label::to_string).collect::<Vec<String>>().join(" + ");
     let lost: Vec<String> = tags.sets.iter().filter(|set| is_lost(set)).map(words).collect();
-    let name = if format == Format::Medit { "MEDIT".to_owned() } else { format.name().to_uppercase() };
+    let name = match format {
+        Format::Medit => "MEDIT",
+        Format::Vtk => "VTK",
+        _ => "VTU",
+    };
     let keeps = if format == Format::Vtu {
         "; programs that do not read its field TagNames see no others"
     } else {

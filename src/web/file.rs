@@ -19,8 +19,14 @@ pub(super) fn read(bytes: &[u8], format: Option<String>) -> Result<Document, Fai
 
 /// What files of each format cannot say of groups, by the formats' names; formats that keep all are left out.
 pub(super) fn losses(tags: &Tags, groups: Option<&FaceGroups>) -> BTreeMap<&'static str, Vec<String>> {
-    let of_formats = Format::ALL.iter().map(|&format| (format.name(), losses_of(tags, groups, format)));
-    of_formats.filter(|(_, losses)| !losses.is_empty()).collect()
+    let mut of_formats = BTreeMap::new();
+    for format in Format::ALL {
+        let losses = losses_of(tags, groups, format);
+        if !losses.is_empty() {
+            of_formats.insert(format.name(), losses);
+        }
+    }
+    of_formats
 }
 
 /// The format of a name that JavaScript gave.

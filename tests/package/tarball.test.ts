@@ -19,12 +19,12 @@ import type { Project } from './project.js';
  * solids hold kernels that look at four hexes side by side, in twice the code and half the time.
  */
 const BUDGETS = {
-  mesher: 460_000,
-  'mesher-threads': 460_000,
-  hexes: 550_000,
-  'hexes-threads': 550_000,
-  solids: 910_000,
-  'solids-threads': 910_000,
+  mesher: 490_000,
+  'mesher-threads': 505_000,
+  hexes: 585_000,
+  'hexes-threads': 595_000,
+  solids: 945_000,
+  'solids-threads': 955_000,
 };
 
 /** A cancelled call has to leave the processor to the next within this time, in milliseconds. */

@@ -153,12 +153,14 @@ fn labels_or_untagged(set: &TagSet) -> Vec<Label<'_>> {
 /// The groups whose numbers are others in a file, in words.
 pub(in crate::io) fn renumbered(tags: &Tags) -> Vec<String> {
     let groups = PhysicalGroups::of(&tags.sets);
-    let all = tags.sets.iter().zip(&groups.of_set).flat_map(|(set, numbers)| {
-        labels(set)
-            .into_iter()
-            .map(|label| (label.number.is_some_and(|n| !numbers.iter().any(|&m| i64::from(m) == n)), label))
-    });
-    let others: BTreeSet<Label<'_>> = all.filter(|(is_other, _)| *is_other).map(|(_, label)| label).collect();
+    let mut others = BTreeSet::new();
+    for (set, numbers) in tags.sets.iter().zip(&groups.of_set) {
+        for label in labels(set) {
+            if label.number.is_some_and(|n| !numbers.iter().any(|&m| i64::from(m) == n)) {
+                others.insert(label);
+            }
+        }
+    }
     others
         .into_iter()
         .map(|label| match (label.number, label.name.is_empty()) {

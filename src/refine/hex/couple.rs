@@ -6,7 +6,7 @@
 //! couplable condition of the paper on non-regular background meshes, section 4.3.2).
 
 use super::pillow::{LayerHex, above};
-use super::stage::NO_OCTANT;
+use super::stage::{NO_OCTANT, StageMesh};
 use crate::geometry::{Point, area_vector};
 use crate::mesh::numbering::hex::apart;
 use crate::mesh::{Edges, NodeId, QuadMesh};
@@ -24,8 +24,9 @@ pub(super) fn middles_of_families(layer: &[LayerHex], octant: &[u8]) -> Option<V
 
 /// Which of the corners 0..4 of each hex of the layer is its `f`; or the refined hexes at faces that no group
 /// can have, ascending.
-pub(super) fn coupled_middles(positions: &[Point], layer: &[LayerHex]) -> Result<Vec<u8>, Vec<u32>> {
-    Sheet::new(positions, layer).couple(layer)
+/// How flat groups are is asked of the faces where the layer stands, in the mesh `before`.
+pub(super) fn coupled_middles(before: &StageMesh, layer: &[LayerHex]) -> Result<Vec<u8>, Vec<u32>> {
+    Sheet::new(before, layer).couple(layer)
 }
 
 /// The corner of a layer hex at the face node of the parent, if the refined child's face is part of a face of
@@ -43,8 +44,10 @@ fn family_middle(octant: u8, refined_face: u8) -> Option<u8> {
 
 /// The layer seen as a sheet of quads: a node is a pair of a coarse and a refined copy.
 struct Sheet {
-    /// The quads, walked as corners 0..4 of their hexes; positions of the refined copies.
-    quads: QuadMesh,
+    /// The quads, walked as corners 0..4 of their hexes.
+    quads: Vec<[NodeId; 4]>,
+    /// The normals of their faces before the layer was made, of length 1 or 0.
+    normals: Vec<Point>,
     edges: Edges,
     /// The quads of each edge: two, or one and [`NONE`].
     of_edge: Vec<[u32; 2]>,
@@ -53,23 +56,29 @@ struct Sheet {
 const NONE: u32 = u32::MAX;
 
 impl Sheet {
-    fn new(positions: &[Point], layer: &[LayerHex]) -> Self {
+    fn new(before: &StageMesh, layer: &[LayerHex]) -> Self {
         let columns = |hex: &LayerHex| [0, 1, 2, 3].map(|k| (hex.hex[k], hex.hex[k + 4]));
         let mut nodes: Vec<(NodeId, NodeId)> = layer.iter().flat_map(columns).collect();
         nodes.sort_unstable();
         nodes.dedup();
         let number = |column| NodeId::new(nodes.binary_search(&column).expect("a column of the layer"));
-        let quads = QuadMesh {
-            positions: nodes.iter().map(|(_, refined)| positions[refined.index()]).collect(),
+        let normal = |hex: &LayerHex| {
+            let nodes = before.hexes[hex.face.refined as usize];
+            let corners =
+                above(hex.face.refined_face).map(|k| before.positions[nodes[usize::from(k)].index()]);
+            area_vector(&corners).normalize_or_zero()
+        };
+        let sheet = QuadMesh {
+            positions: vec![Point::ZERO; nodes.len()],
             quads: layer.iter().map(|hex| columns(hex).map(number)).collect(),
         };
-        let edges = Edges::of_quads(&quads);
+        let edges = Edges::of_quads(&sheet);
         let mut of_edge = vec![[NONE; 2]; edges.len()];
         for (corner, edge) in edges.of_corner.iter().enumerate() {
             let [first, second] = &mut of_edge[edge.index()];
             *(if *first == NONE { first } else { second }) = corner as u32 / 4;
         }
-        Self { quads, edges, of_edge }
+        Self { quads: sheet.quads, normals: layer.iter().map(normal).collect(), edges, of_edge }
     }
 
     /// The middles, component by component: of the four choices at its first quad the flattest that fits.
@@ -137,7 +146,7 @@ impl Sheet {
                 }
                 fits &= middles[other] == there;
                 if within {
-                    flattest = flattest.min(self.normal(quad).dot(self.normal(other)));
+                    flattest = flattest.min(self.normals[quad].dot(self.normals[other]));
                 }
             }
         }
@@ -148,10 +157,10 @@ impl Sheet {
     /// The middle of the quad across a side, as this quad's `middle` wants it: the same node if the side has it, else
     /// the node opposite to the `k` that both share.
     fn neighbour_middle(&self, quad: usize, side: usize, middle: u8, other: usize) -> u8 {
-        let nodes = self.quads.quads[quad];
+        let nodes = self.quads[quad];
         let ends = [nodes[side], nodes[(side + 1) % 4]];
         let opposite = nodes[(usize::from(middle) + 2) % 4];
-        let there = |node: NodeId| self.quads.quads[other].iter().position(|&n| n == node);
+        let there = |node: NodeId| self.quads[other].iter().position(|&n| n == node);
         let f = nodes[usize::from(middle)];
         let place = if ends.contains(&f) { there(f) } else { there(opposite).map(|k| (k + 2) % 4) };
         place.expect("two quads at an edge share its nodes") as u8
@@ -159,11 +168,10 @@ impl Sheet {
 
     /// Is the `f` of a quad that of four quads around it? Walks from quad to quad around the node.
     fn has_four(&self, quad: usize, middles: &[u8]) -> bool {
-        let f = self.quads.quads[quad][usize::from(middles[quad])];
+        let f = self.quads[quad][usize::from(middles[quad])];
         let (mut at, mut steps) = (quad, 0);
         loop {
-            let corner =
-                self.quads.quads[at].iter().position(|&n| n == f).expect("the walk stays at the node");
+            let corner = self.quads[at].iter().position(|&n| n == f).expect("the walk stays at the node");
             let [a, b] = self.of_edge[self.edges.of_corner[4 * at + corner].index()];
             let next = if a as usize == at { b } else { a };
             steps += 1;
@@ -175,10 +183,5 @@ impl Sheet {
                 return steps == 4;
             }
         }
-    }
-
-    fn normal(&self, quad: usize) -> Point {
-        let corners = self.quads.quads[quad].map(|n| self.quads.positions[n.index()]);
-        area_vector(&corners).normalize_or_zero()
     }
 }

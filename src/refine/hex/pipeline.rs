@@ -17,7 +17,7 @@ use std::sync::Mutex;
 use super::attempt::{Attempt, attempt};
 use super::input::boundary_surface;
 use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size};
-use super::plan::{Decided, HexPlan, TOUCHES};
+use super::plan::{Decided, HexPlan, INSEPARABLE};
 use super::poor::mend_poor;
 use super::stage::{NO_ELEMENT, StageMesh, StageReport, StageResult};
 use crate::geometry::Point;
@@ -192,7 +192,7 @@ fn growth_refused(made: &Made, hexes: &[u32], are_tangled: bool) -> HexRefineErr
     HexRefineError::GrowthRefused {
         elements: hexes.len(),
         level: made.number as u8,
-        reason: if are_tangled { "where transition hexes stay inside out" } else { TOUCHES },
+        reason: if are_tangled { "where transition hexes stay inside out" } else { INSEPARABLE },
         near: hexes.first().map(centre).unwrap_or_default(),
     }
 }

@@ -17,7 +17,7 @@ use super::heritage::Heritage;
 use super::options::{Added, Growth, HexOptions, HexRefineError, Method, check_size};
 use super::outline::Outline;
 use super::refinement::HexRefinement;
-use super::stage::{StageError, StageMesh, can_be_joined};
+use super::stage::{Joining, StageError, StageMesh, joining};
 use super::trees::{TreeLevel, Trees};
 use crate::geometry::Point;
 use crate::mesh::HexMesh;
@@ -26,7 +26,7 @@ use crate::{Monitor, Stage};
 const CLOSE: Stage = Stage("close");
 
 /// Why conflicts are refined.
-pub(super) const TOUCHES: &str = "where the interface cannot be separated";
+pub(super) const INSEPARABLE: &str = "where the interface cannot be separated";
 
 /// What is refined, what closing the trees has added, and what will come of it.
 #[derive(Debug)]
@@ -184,7 +184,7 @@ impl<'a> HexPlan<'a> {
             match self.foresee(&trees, &heritage, monitor)? {
                 Ok(stages) => break stages,
                 Err((number, more)) => {
-                    self.may_grow(&trees, (number, &more), TOUCHES)?;
+                    self.may_grow(&trees, (number, &more), INSEPARABLE)?;
                     self.added.conflicts += more.len();
                     trees.split(number, &more, monitor)?;
                 }
@@ -241,25 +241,33 @@ impl<'a> HexPlan<'a> {
             return Ok(());
         }
         let mesh = StageMesh::of_mesh(&self.input, monitor)?;
-        if can_be_joined(&mesh, base.is_refined, monitor)? {
-            return Ok(());
-        }
-        let grouping = Grouping::of(mesh.positions.len(), &mesh.hexes, monitor)?;
+        let mut grouping = None;
         loop {
             let base = trees.level(0);
-            let rest = rest_of_blocks(&grouping.blocks(base.is_refined, monitor)?, base);
-            if rest.is_empty() {
-                break;
-            }
-            self.refine_unasked(trees, &rest, monitor)?;
-            if can_be_joined(&mesh, trees.level(0).is_refined, monitor)? {
+            let joining = joining(&mesh, base.is_refined, monitor)?;
+            if let Joining::Possible = joining {
                 return Ok(());
             }
+            let grouping = match &mut grouping {
+                Some(known) => known,
+                none => none.insert(Grouping::of(mesh.positions.len(), &mesh.hexes, monitor)?),
+            };
+            let of_blocks = rest_of_blocks(&grouping.blocks(base.is_refined, monitor)?, base);
+            match joining {
+                _ if !of_blocks.is_empty() => self.refine_unasked(trees, &of_blocks, monitor)?,
+                Joining::Conflict(more) => {
+                    self.may_grow(trees, (0, &more), INSEPARABLE)?;
+                    self.added.conflicts += more.len();
+                    trees.split(0, &more, monitor)?;
+                    self.close(trees, monitor)?;
+                }
+                _ => {
+                    let rest = (0..base.elements.len() as u32).filter(|&e| !base.is_refined[e as usize]);
+                    let rest: Vec<u32> = rest.collect();
+                    return self.refine_unasked(trees, &rest, monitor);
+                }
+            }
         }
-        let base = trees.level(0);
-        let rest = (0..base.elements.len() as u32).filter(|&e| !base.is_refined[e as usize]);
-        let rest: Vec<u32> = rest.collect();
-        self.refine_unasked(trees, &rest, monitor)
     }
 
     /// Refines hexes of the input for the interface's sake.

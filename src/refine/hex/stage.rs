@@ -201,7 +201,7 @@ fn stage_of(
         }
         Method::Two => {
             let pillow = pillow(&mesh.positions, &mut interface, monitor)?;
-            let divided = quarters(&pillow, &mesh.octant).map_err(StageError::NotCouplable)?;
+            let divided = quarters(&pillow, mesh).map_err(StageError::NotCouplable)?;
             drop(interface);
             pillowed_stage(mesh, refined, (pillow, is_opened), (&SPLIT, divided), monitor)
         }
@@ -213,7 +213,7 @@ fn stage_of(
         }
         Method::Auto => {
             let pillow = pillow(&mesh.positions, &mut interface, monitor)?;
-            let templates = match quarters(&pillow, &mesh.octant) {
+            let templates = match quarters(&pillow, mesh) {
                 Ok(divided) => (&SPLIT, divided),
                 Err(_) => (&THIRDS, thirteens(&pillow)),
             };
@@ -223,33 +223,43 @@ fn stage_of(
     }
 }
 
-/// Can Method II join the set without more hexes being refined?
-pub(super) fn can_be_joined(
+/// Can Method II join a set to the rest?
+pub(super) enum Joining {
+    Possible,
+    /// These hexes must be refined too.
+    Conflict(Vec<u32>),
+    /// Its interface cannot be grouped two by two.
+    Ungrouped,
+}
+
+/// Looks whether Method II can join the set.
+pub(super) fn joining(
     mesh: &StageMesh,
     refined: &[bool],
     monitor: &dyn Monitor,
-) -> Result<bool, Cancelled> {
+) -> Result<Joining, Cancelled> {
     let mut interface = mesh.interface(refined, monitor)?;
     match pillow(&mesh.positions, &mut interface, monitor) {
-        Ok(pillow) => Ok(quarters(&pillow, &mesh.octant).is_ok()),
+        Ok(pillow) if quarters(&pillow, mesh).is_ok() => Ok(Joining::Possible),
+        Err(StageError::Conflict(more)) => Ok(Joining::Conflict(more)),
         Err(StageError::Cancelled(cancelled)) => Err(cancelled),
-        Err(_) => Ok(false),
+        _ => Ok(Joining::Ungrouped),
     }
 }
 
 /// The layer's hexes as quarters, grouped by families or, if there are none, in any way that fits; or the refined
 /// hexes at faces that cannot be grouped.
-fn quarters(pillow: &Pillow, octant: &[u8]) -> Result<Vec<Divided>, Vec<u32>> {
+fn quarters(pillow: &Pillow, mesh: &StageMesh) -> Result<Vec<Divided>, Vec<u32>> {
     let layer = &pillow.layer;
     let place = |middles: Vec<u8>| {
         let on_top = |(hex, middle): (&LayerHex, u8)| Quarter::on_face(hex.hex, [4, 5, 6, 7], middle);
         let quarters: Vec<Quarter> = layer.iter().zip(middles).map(on_top).collect();
         place_quarters(&quarters)
     };
-    if let Some(divided) = middles_of_families(layer, octant).and_then(place) {
+    if let Some(divided) = middles_of_families(layer, &mesh.octant).and_then(place) {
         return Ok(divided);
     }
-    let middles = coupled_middles(&pillow.positions, layer)?;
+    let middles = coupled_middles(mesh, layer)?;
     place(middles).ok_or_else(|| layer.iter().map(|hex| hex.face.refined).collect())
 }
 

@@ -301,3 +301,20 @@ fn materials_that_meet_in_steps_take_few_more_hexes() {
         }
     });
 }
+
+/// Where the sides of a set cannot be parted, more is refined there, and not all of the input so that it is in families.
+#[test]
+fn sets_of_the_input_between_materials_stay_small() {
+    let ball = Region {
+        shape: hexmill::sizing::Shape::Sphere { center: [3.6, 4.6, 3.5].into(), radius: 1.2 },
+        target: Target::Level(1),
+    };
+    for name in ["stairs", "corners", "ball", "three", "random"] {
+        let (refined, worst) = planar(name, &stepped(8, name), std::slice::from_ref(&ball), Method::Auto);
+        let (hexes, added) = (refined.mesh.hexes.len(), refined.added);
+        println!("{name}: {hexes} hexes, worst {worst:.3}, {added:?}");
+        assert_eq!(added.repairs, 0, "{name}");
+        assert!(hexes < 2_000, "{name}: {hexes} hexes; 4,096 are all refined once");
+        assert!(worst >= least(Method::Two), "{name}: {worst}");
+    }
+}

@@ -169,7 +169,7 @@ fn plan_in_words(plan: &HexPlan) -> String {
         (closure.families, "to complete families of eight"),
         (closure.balance, "to grade levels by one"),
         (closure.method, "for the method's templates"),
-        (conflicts, "where the interface touches itself"),
+        (conflicts, "where the interface cannot be separated"),
     ];
     let mut lines = vec![format!(
         "{} to be made, with {}, in {}",

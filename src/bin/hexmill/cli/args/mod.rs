@@ -241,7 +241,7 @@ pub(crate) enum MethodArg {
     Two,
     /// A pillow, hexes in 27
     Three,
-    /// Method two; hexes of the input that nothing asks to refine stay whole where that can be
+    /// Method two; of the input whole blocks of 2 x 2 x 2 hexes are refined, and all only where there are none
     Auto,
 }
 
