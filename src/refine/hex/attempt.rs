@@ -1,11 +1,13 @@
 //! A stage with its transition untangled and smoothed; or what must be refined too.
 
+use std::collections::HashMap;
+
 use super::local::Local;
 use super::options::{HexRefineError, Method};
 use super::stage::{StageError, StageMesh, StageResult, opened_stage};
 use crate::Monitor;
-use crate::mesh::HexId;
-use crate::mesh::topology::HexFaces;
+use crate::mesh::topology::{HexFaces, Sets};
+use crate::mesh::{HexId, NodeId};
 use crate::optimize::{BoundarySurface, Constraints, OptimizeOptions};
 
 /// How a stage ended.
@@ -14,7 +16,7 @@ pub(super) enum Attempt {
     Made(Box<StageResult>),
     /// The interface cannot be separated unless these hexes are refined too.
     Conflict(Vec<u32>),
-    /// So many `hexes` stay inside out; the `coarse` ones beside them are to be refined too.
+    /// So many `hexes` stay inside out; `coarse` ones beside them are to be refined too.
     Tangled { coarse: Vec<u32>, hexes: usize },
 }
 
@@ -102,14 +104,33 @@ pub(super) fn without_template(error: StageError) -> HexRefineError {
     }
 }
 
-/// The coarse hexes whose transition hexes touch those that are `tangled`.
+/// A coarse hex at each cluster of hexes that are `tangled`: the one with the most transition hexes that touch them.
 fn coarse_at(stage: &StageResult, tangled: &[HexId]) -> Vec<u32> {
     let hexes = &stage.mesh.hexes;
-    let mut is_near = vec![false; stage.mesh.positions.len()];
-    tangled.iter().flat_map(|h| hexes[h.index()]).for_each(|n| is_near[n.index()] = true);
-    let transition = stage.first_transition..hexes.len();
-    let touching = transition.filter(|&h| hexes[h].iter().any(|n| is_near[n.index()]));
-    let mut coarse: Vec<u32> = touching.map(|h| stage.from[h]).collect();
+    // The first tangled hex at each node, and the cluster of each.
+    let mut first_at: HashMap<NodeId, u32> = HashMap::new();
+    let mut clusters = Sets::new(tangled.len());
+    for (k, h) in (0..).zip(tangled) {
+        for node in hexes[h.index()] {
+            clusters.join(k, *first_at.entry(node).or_insert(k), false);
+        }
+    }
+    let mut touching: Vec<(u32, u32)> = Vec::new();
+    for (hex, &from) in hexes.iter().zip(&stage.from).skip(stage.first_transition) {
+        let near = hex.iter().filter_map(|node| first_at.get(node));
+        touching.extend(near.map(|&k| (clusters.root(k).0, from)).min());
+    }
+    touching.sort_unstable();
+    let mut most: Vec<(u32, usize, u32)> = Vec::new();
+    for of_one in touching.chunk_by(|a, b| a == b) {
+        let (cluster, coarse) = of_one[0];
+        match most.last_mut().filter(|last| last.0 == cluster) {
+            Some(last) if last.1 >= of_one.len() => {}
+            Some(last) => *last = (cluster, of_one.len(), coarse),
+            None => most.push((cluster, of_one.len(), coarse)),
+        }
+    }
+    let mut coarse: Vec<u32> = most.into_iter().map(|(.., coarse)| coarse).collect();
     coarse.sort_unstable();
     coarse.dedup();
     coarse
