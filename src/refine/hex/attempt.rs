@@ -1,14 +1,15 @@
-//! A stage with its transition untangled and smoothed; or what must be refined too.
+//! A stage with its transition untangled, smoothed and mended; or what must be refined too.
 
 use std::collections::HashMap;
 
 use super::local::Local;
 use super::options::{HexRefineError, Method};
+use super::poor::mend_poor;
 use super::stage::{StageError, StageMesh, StageResult, opened_stage};
 use crate::Monitor;
 use crate::mesh::topology::{HexFaces, Sets};
 use crate::mesh::{HexId, NodeId};
-use crate::optimize::{BoundarySurface, Constraints, OptimizeOptions};
+use crate::optimize::{BoundarySurface, OptimizeOptions};
 
 /// How a stage ended.
 pub(super) enum Attempt {
@@ -20,14 +21,11 @@ pub(super) enum Attempt {
     Tangled { coarse: Vec<u32>, hexes: usize },
 }
 
-/// Nodes that are further off the boundary than this share of the shortest edge have left it.
-const STRAYED: f64 = 1e-6;
-
 /// Where hexes stay inverted, all nodes so many rings of hexes around move too: a layer along a concave ridge needs room
 /// that the hexes beside it have.
 const WIDER: [usize; 2] = [2, 4];
 
-/// Makes a stage, untangles its transition and smooths it.
+/// Makes a stage, untangles its transition, smooths it and mends what that leaves poor.
 pub(super) fn attempt(
     mesh: &StageMesh,
     refined: &[bool],
@@ -46,17 +44,18 @@ pub(super) fn attempt(
     let faces = if next.is_inside { None } else { Some(local.faces(monitor)?) };
     let has_none = |faces: &HexFaces| next.mesh.materials.is_empty() && local.is_inside(faces);
     let options = smoothing(method, faces.as_ref().is_none_or(has_none));
-    let mut tangled = relax(&next, (&mut local, faces), surface, &options, monitor)?;
+    let mut tangled = local.relax(&next, faces, surface, &options, monitor)?;
     for rings in WIDER {
         if tangled.is_empty() {
             break;
         }
         local = Local::wider(&next, &tangled, rings, monitor)?;
         let faces = Some(local.faces(monitor)?);
-        tangled = relax(&next, (&mut local, faces), surface, &options, monitor)?;
+        tangled = local.relax(&next, faces, surface, &options, monitor)?;
     }
     local.write_back(&mut next.mesh.positions);
     if tangled.is_empty() {
+        mend_poor(&mut next, &local.hex_ids, mesh, surface, monitor)?;
         return Ok(Attempt::Made(Box::new(next)));
     }
     Ok(Attempt::Tangled { coarse: coarse_at(&next, &tangled), hexes: tangled.len() })
@@ -70,28 +69,6 @@ fn smoothing(method: Method, is_inside: bool) -> OptimizeOptions {
         _ if is_inside => OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 4, ..all },
         _ => all,
     }
-}
-
-/// Untangles and smooths some hexes of a stage, whose faces tell what their nodes are kept on: nothing, if there are none.
-/// Those that stay inverted.
-pub(super) fn relax(
-    stage: &StageResult,
-    (local, faces): (&mut Local, Option<HexFaces>),
-    surface: &BoundarySurface,
-    options: &OptimizeOptions,
-    monitor: &dyn Monitor,
-) -> Result<Vec<HexId>, HexRefineError> {
-    let constraints = match faces {
-        Some(faces) => local.constraints(faces, &stage.mesh, surface, monitor)?,
-        None => Constraints::none(local.node_count()),
-    };
-    let mut report = local.optimize(&constraints, options, monitor)?;
-    if report.off_boundary > STRAYED * local.shortest_edge() {
-        // A node has passed the end of its patch: it lies in the plane of that, but no more on the boundary.
-        local.put_back(&stage.mesh.positions);
-        report = local.optimize(&constraints.bounded(), options, monitor)?;
-    }
-    Ok(report.inverted.iter().map(|h| local.hex_ids[h.index()]).collect())
 }
 
 /// What it means that a stage was not made, other than for a conflict: closed trees leave no such place.

@@ -10,6 +10,9 @@ use crate::mesh::{FaceId, HexId, NodeId, QuadMesh};
 use crate::optimize::{BoundarySurface, Constraints, FaceKind, OptimizeOptions, OptimizeReport, optimize};
 use crate::{Cancelled, Monitor, parallel};
 
+/// Nodes that are further off the boundary than this share of the shortest edge have left it.
+const STRAYED: f64 = 1e-6;
+
 /// Some hexes of a mesh, over nodes of their own.
 pub(super) struct Local {
     /// Coordinates of the nodes, in the mesh's order.
@@ -144,6 +147,29 @@ impl Local {
             return Ok(constraints);
         }
         Ok(constraints.fixed_where_curved(|node| self.stays_if_curved[node.index()]))
+    }
+
+    /// Untangles and smooths the hexes of a stage, whose faces tell what their nodes are kept on: nothing, if there are none.
+    /// Those that stay inverted, by their numbers in the mesh.
+    pub(super) fn relax(
+        &mut self,
+        stage: &StageResult,
+        faces: Option<HexFaces>,
+        surface: &BoundarySurface,
+        options: &OptimizeOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<HexId>, Cancelled> {
+        let constraints = match faces {
+            Some(faces) => self.constraints(faces, &stage.mesh, surface, monitor)?,
+            None => Constraints::none(self.node_count()),
+        };
+        let mut report = self.optimize(&constraints, options, monitor)?;
+        if report.off_boundary > STRAYED * self.shortest_edge() {
+            // A node has passed the end of its patch: it lies in the plane of that, but no more on the boundary.
+            self.put_back(&stage.mesh.positions);
+            report = self.optimize(&constraints.bounded(), options, monitor)?;
+        }
+        Ok(report.inverted.iter().map(|h| self.hex_ids[h.index()]).collect())
     }
 
     /// Untangles and smooths the hexes.

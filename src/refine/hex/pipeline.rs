@@ -18,7 +18,6 @@ use super::attempt::{Attempt, attempt};
 use super::input::boundary_surface;
 use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size};
 use super::plan::{Decided, HexPlan, INSEPARABLE};
-use super::poor::mend_poor;
 use super::stage::{NO_ELEMENT, StageMesh, StageReport, StageResult};
 use crate::geometry::Point;
 use crate::mesh::HexMesh;
@@ -132,7 +131,6 @@ impl HexPlan<'_> {
         let mut attempt = attempt(mesh, &refined, method, surface, monitor)?;
         if let Attempt::Made(next) = &mut attempt {
             check_size(self.options, number as u8 + 1, next.mesh.hexes.len() as u64)?;
-            mend_poor(next, mesh, surface, monitor)?;
             number_as_trees(next, mesh, &outline.refined[number], outline.children);
         }
         Ok(Some(attempt))

@@ -8,15 +8,12 @@
 //! Nodes on curved surfaces move if they are the layer's, else they stay: what is divided later stands on the chords between
 //! them.
 
-use super::attempt::relax;
 use super::local::Local;
-use super::options::HexRefineError;
 use super::stage::{StageMesh, StageResult};
-use crate::Monitor;
 use crate::mesh::HexId;
 use crate::mesh::quality::{aspect, scaled_jacobian};
 use crate::optimize::{BoundarySurface, OptimizeOptions};
-use crate::parallel;
+use crate::{Cancelled, Monitor, parallel};
 
 /// A hex is poor with a scaled Jacobian below this, over the aspect of the hex which it came from: transitions of cubes
 /// hardly ever have one, those of thin hexes are thin.
@@ -28,37 +25,37 @@ const SHARE: f64 = 0.5;
 /// Rings of hexes around the poor ones whose nodes move.
 const RINGS: usize = 2;
 
-/// Moves nodes around the poor hexes of a stage that was made from the mesh `before`.
+/// Moves nodes around the poor ones of the `smoothed` hexes of a stage that was made from the mesh `before`.
 pub(super) fn mend_poor(
     stage: &mut StageResult,
+    smoothed: &[HexId],
     before: &StageMesh,
     surface: &BoundarySurface,
     monitor: &dyn Monitor,
-) -> Result<(), HexRefineError> {
-    let poor = poor_hexes(stage, before, monitor)?;
+) -> Result<(), Cancelled> {
+    let poor = poor_hexes(stage, smoothed, before, monitor)?;
     if poor.is_empty() {
         return Ok(());
     }
     let options = OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 16, ..OptimizeOptions::default() };
     let mut local = Local::beside(stage, &poor, RINGS, monitor)?;
     let faces = local.faces(monitor)?;
-    if relax(stage, (&mut local, Some(faces)), surface, &options, monitor)?.is_empty() {
+    if local.relax(stage, Some(faces), surface, &options, monitor)?.is_empty() {
         local.write_back(&mut stage.mesh.positions);
     }
     Ok(())
 }
 
-/// The poor hexes. They need not be at the layer: where hexes were untangled others moved too.
+/// The poor ones of the `smoothed` hexes.
 fn poor_hexes(
     stage: &StageResult,
+    smoothed: &[HexId],
     before: &StageMesh,
     monitor: &dyn Monitor,
-) -> Result<Vec<HexId>, HexRefineError> {
-    if stage.layer_nodes.is_empty() {
-        return Ok(Vec::new());
-    }
+) -> Result<Vec<HexId>, Cancelled> {
     let corners = |mesh: &StageMesh, h: usize| mesh.hexes[h].map(|n| mesh.positions[n.index()]);
-    let is_poor = |h: usize| {
+    let is_poor = |k: usize| {
+        let h = smoothed[k].index();
         let here = scaled_jacobian(&corners(&stage.mesh, h));
         if here >= POOR {
             return false;
@@ -66,5 +63,6 @@ fn poor_hexes(
         let parent = corners(before, stage.from[h] as usize);
         here * aspect(&parent) < POOR && here < SHARE * scaled_jacobian(&parent)
     };
-    Ok(parallel::try_filter(stage.mesh.hexes.len(), monitor, is_poor)?.into_iter().map(HexId).collect())
+    let poor = parallel::try_filter(smoothed.len(), monitor, is_poor)?;
+    Ok(poor.into_iter().map(|k| smoothed[k as usize]).collect())
 }
