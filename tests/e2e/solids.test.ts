@@ -88,6 +88,24 @@ test('an exported file holds the same hexes', async () => {
   expect(await bench.page.locator('.hash code').innerText()).toBe(hash);
 });
 
+test('hexes of the second order are exported with all their nodes', async () => {
+  const { page } = bench;
+  await bench.open('house.obj', HOUSE);
+  await bench.choice('Make', 'Hexes in it').check();
+  await bench.fill('Edges about as long as, model units', '0.5');
+  await page.locator('summary', { hasText: 'Background, nodes and limits' }).click();
+  await bench.choice('Nodes of a hex', '27').check();
+  await bench.estimate();
+  await bench.mesh();
+  const hexes = await bench.figure('hexes');
+  expect(await page.locator('[data-second-order]').getAttribute('data-second-order')).toBe('hex27');
+  expect(await page.getByLabel('Export format').locator('option').allInnerTexts()).toEqual(['VTU, ParaView', 'VTK, legacy', 'MSH, Gmsh', 'INP, Abaqus']);
+  await seen('second-order');
+  const text = await readFile(await (await bench.export('INP, Abaqus')).path(), 'utf8');
+  const elements = /\*ELEMENT, TYPE=C3D27[^\n]*\n([^*]*)/i.exec(text)?.[1] ?? '';
+  expect(elements.split(/[\s,]+/).filter(Boolean)).toHaveLength(28 * hexes);
+});
+
 test('what the mesh does not show is listed and drawn', async () => {
   const { page } = bench;
   await bench.open('needle.obj', NEEDLE);

@@ -1,6 +1,7 @@
 /** File formats by name and extension. */
 
 import type { OutputFormat, InputFormat } from 'hexmill';
+import type { CellKind } from './job.js';
 
 export interface FormatInfo<F extends string> {
   readonly format: F;
@@ -30,15 +31,32 @@ export const WRITABLE: readonly FormatInfo<OutputFormat>[] = [
   { format: 'glb', extension: 'glb', label: 'glTF', note: 'For viewing: quads become triangles' },
 ];
 
-/** Formats that hold hexes, or quads. GLB, which draws triangles, gets the boundary of hexes. */
-export function writable(hexes: boolean): readonly FormatInfo<OutputFormat>[] {
-  return hexes ? WRITABLE.filter(({ format }) => format !== 'obj').map((info) => ({ ...info, note: HEX_NOTES[info.format] ?? info.note })) : WRITABLE;
+/** Formats that hold quads, linear hexes, or hexes of the second order. */
+export function writable(cells: CellKind): readonly FormatInfo<OutputFormat>[] {
+  if (cells === 'quads') return WRITABLE;
+  const notes = cells === 'hexes' ? HEX_NOTES : SECOND_ORDER_NOTES;
+  return WRITABLE.flatMap((info) => {
+    const note = notes[info.format];
+    return note === undefined ? [] : [{ ...info, note: note ?? info.note }];
+  });
 }
 
-/** What differs for hexes. */
-const HEX_NOTES: Partial<Record<OutputFormat, string>> = {
+/** The formats that hold linear hexes, and what differs for these. GLB, which draws triangles, gets their boundary. */
+const HEX_NOTES: Partial<Record<OutputFormat, string | null>> = {
+  vtu: null,
+  vtk: null,
+  msh: null,
   inp: 'Input deck of C3D8 bricks: Abaqus, CalculiX',
+  medit: null,
   glb: 'For viewing: the boundary alone',
+};
+
+/** The formats that hold hexes of the second order, and what differs for these. */
+const SECOND_ORDER_NOTES: Partial<Record<OutputFormat, string | null>> = {
+  vtu: null,
+  vtk: null,
+  msh: null,
+  inp: 'Input deck of C3D20 or C3D27 bricks: Abaqus, CalculiX',
 };
 
 /** For the file dialog. */

@@ -29,6 +29,20 @@ export function isSolid(mesh: Cells): mesh is HexedSolid {
   return mesh instanceof HexedSolid;
 }
 
+/** What kind of cells the mesh has. */
+export type CellKind = 'quads' | 'hexes' | 'second order';
+
+export function kindOf(mesh: Cells): CellKind {
+  if (isSolid(mesh) && mesh.secondOrder) return 'second order';
+  return isHexes(mesh) ? 'hexes' : 'quads';
+}
+
+/** What kind of cells a job makes. */
+export function wantedKind(job: Job, settings: Settings): CellKind {
+  if (job === 'solid' && settings.solid.secondOrder !== null) return 'second order';
+  return job === 'quads' ? 'quads' : 'hexes';
+}
+
 /** Nodes of each cell of `mesh`, cell after cell, and how many each has. */
 export function cornersOf(mesh: Cells): { corners: Uint32Array; each: number } {
   return isHexes(mesh) ? { corners: mesh.hexes, each: 8 } : { corners: mesh.quads, each: 4 };

@@ -99,19 +99,19 @@ describe('links to hexes', () => {
 });
 
 describe('links to solids', () => {
-  const solid: Settings = { ...DEFAULTS, job: 'solid', solid: { ...DEFAULTS.solid, edgeLength: 0.5, featureAngle: 40, background: 'octree', maxDistance: 0.01, maxLevels: 1 }, regions: full.regions.slice(1, 2) };
+  const solid: Settings = { ...DEFAULTS, job: 'solid', solid: { ...DEFAULTS.solid, edgeLength: 0.5, featureAngle: 40, background: 'octree', maxDistance: 0.01, maxLevels: 1, secondOrder: 'hex27' }, regions: full.regions.slice(1, 2) };
 
   test('give the job back', () => {
     const link = formatLink('plate', solid);
-    expect(link).toBe('example=plate&job=solid&edge-length=0.5&feature-angle=40&background=octree&max-distance=0.01&max-levels=1&region=box:0,0,0,1,2,3:level=4');
+    expect(link).toBe('example=plate&job=solid&edge-length=0.5&feature-angle=40&background=octree&max-distance=0.01&max-levels=1&second-order=hex27&region=box:0,0,0,1,2,3:level=4');
     const linked = parseLink(link);
     expect(bare({ ...DEFAULTS, ...linked?.settings, hexes: DEFAULTS.hexes, solid: { ...DEFAULTS.solid, ...linked?.settings.solid } })).toEqual(bare(solid));
-    expect(parseLink('#example=plate&job=solid&feature-angle=400&background=none')?.settings).toMatchObject({ job: 'solid', solid: {} });
+    expect(parseLink('#example=plate&job=solid&feature-angle=400&background=none&second-order=hex8')?.settings).toMatchObject({ job: 'solid', solid: {} });
   });
 
   test('are one command', () => {
     expect(formatCommand({ name: 'plate.obj', holdsHexes: false }, 'out.vtu', solid)).toBe(
-      'hexmill hex plate.obj -o out.vtu --edge-length 0.5 --feature-angle 40 --background octree --max-distance 0.01 --max-levels 1 --region box:0,0,0,1,2,3:level=4',
+      'hexmill hex plate.obj -o out.vtu --edge-length 0.5 --feature-angle 40 --background octree --max-distance 0.01 --max-levels 1 --second-order hex27 --region box:0,0,0,1,2,3:level=4',
     );
   });
 });

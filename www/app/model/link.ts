@@ -47,6 +47,13 @@ export const BACKGROUNDS: readonly { background: SolidSettings['background']; la
   { background: 'octree', label: 'Octree', note: 'A grid, refined where the solid has details' },
 ];
 
+/** The hexes of solids by their nodes. */
+export const HEX_KINDS: readonly { hex: SolidSettings['secondOrder']; nodes: string; note: string }[] = [
+  { hex: null, nodes: '8', note: 'Linear hexes: a node at each corner' },
+  { hex: 'hex20', nodes: '20', note: 'Second order: nodes on edges too, those of the boundary on the solid' },
+  { hex: 'hex27', nodes: '27', note: 'Second order: nodes on edges, on faces and inside, those of the boundary on the solid' },
+];
+
 /** Each option of quads that differs from the defaults. */
 function quadOptions(settings: Settings): Entry[] {
   const list: Entry[] = [
@@ -98,6 +105,7 @@ function solidOptions(settings: Settings): Entry[] {
   if (solid.maxDistance !== null) list.push(['max-distance', editable(solid.maxDistance)]);
   if (solid.maxLevels !== usual.maxLevels) list.push(['max-levels', String(solid.maxLevels)]);
   if (solid.maxHexes !== usual.maxHexes) list.push(['max-hexes', String(solid.maxHexes)]);
+  if (solid.secondOrder !== null) list.push(['second-order', solid.secondOrder]);
   return list.concat(regionOptions(settings));
 }
 
@@ -201,6 +209,7 @@ function parseSolid(entries: URLSearchParams, number: Numbers): Partial<SolidSet
     edgeLength: number('edge-length', Number.MIN_VALUE, Number.MAX_VALUE),
     featureAngle: number('feature-angle', LIMITS.featureAngle.min, LIMITS.featureAngle.max),
     maxHexes: number('max-hexes', LIMITS.maxHexesOfSolids.min, LIMITS.maxHexesOfSolids.max),
+    secondOrder: HEX_KINDS.find(({ hex }) => hex === entries.get('second-order'))?.hex ?? null,
   }) as Partial<SolidSettings>;
 }
 

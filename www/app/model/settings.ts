@@ -1,7 +1,7 @@
 /** What the page asks of the mesher: everything that undo, the link and the command line carry. */
 
 import { MOST_HEXES, MOST_HEXES_OF_SOLIDS, MOST_QUADS } from 'hexmill';
-import type { Background, HexOptions, Method, QuadOptions, Region as RegionOption, SolidOptions } from 'hexmill';
+import type { Background, HexOptions, Method, QuadOptions, Region as RegionOption, SecondOrderHex, SolidOptions } from 'hexmill';
 import type { ViewRegion } from '../view.js';
 import { regionOf } from './guide.js';
 import type { Guide } from './guide.js';
@@ -52,6 +52,8 @@ export interface SolidSettings {
   /** Levels that hexes may be finer where something would be missed. */
   readonly maxLevels: number;
   readonly maxHexes: number;
+  /** Hexes of the second order; null: linear ones. */
+  readonly secondOrder: SecondOrderHex | null;
 }
 
 export interface Settings {
@@ -107,6 +109,7 @@ export const DEFAULTS: Settings = {
     maxDistance: null,
     maxLevels: 2,
     maxHexes: MOST_HEXES_OF_SOLIDS,
+    secondOrder: null,
   },
   by: 'length',
   edgeLength: 1,
@@ -159,8 +162,9 @@ export function toHexOptions({ hexes, regions, guides, gradation }: Settings, mo
 
 /** The options of hexes that fill a solid for `settings`. */
 export function toSolidOptions({ solid, regions }: Settings): SolidOptions {
-  const { curvature, maxDistance, ...rest } = solid;
-  return { ...rest, curvature: curvature ?? undefined, maxDistance: maxDistance ?? undefined, regions: regions.map(toRegionOption) };
+  const { curvature, maxDistance, secondOrder, ...rest } = solid;
+  const given = { curvature: curvature ?? undefined, maxDistance: maxDistance ?? undefined, secondOrder: secondOrder ?? undefined };
+  return { ...rest, ...given, regions: regions.map(toRegionOption) };
 }
 
 function toRegionOption({ shape, target }: Region): RegionOption {

@@ -5,7 +5,7 @@ import type { TemplateResult } from 'lit-html';
 import type { AddedHexes, QualitySummary } from 'hexmill';
 import { iconButton, segmented, select } from './controls.js';
 import { cutPanel } from './cut-panel.js';
-import { distancePanel, featurePanel } from './solid-panels.js';
+import { distancePanel, featurePanel, secondOrderPanel } from './solid-panels.js';
 import { histogram } from './histogram.js';
 import { icon } from './icons.js';
 import type { Page } from './page.js';
@@ -24,7 +24,7 @@ export function inspector(page: Page): TemplateResult {
   return html`
     ${figures(result)}
     ${isHexes(result.mesh) ? cutPanel(page) : nothing}
-    ${isSolid(result.mesh) ? html`${featurePanel(page, result.mesh)}${distancePanel(page, result.mesh)}` : nothing}
+    ${isSolid(result.mesh) ? html`${featurePanel(page, result.mesh)}${distancePanel(page, result.mesh)}${secondOrderPanel(page, result.mesh)}` : nothing}
     ${certificate(page, result)}
     <section aria-labelledby="colour-title">
       <h2 id="colour-title">Colour</h2>

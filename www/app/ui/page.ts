@@ -6,7 +6,7 @@ import { Cutting, formatCut } from '../model/cutting.js';
 import { EXAMPLES, exampleById } from '../model/examples.js';
 import { stem, writable } from '../model/formats.js';
 import { Inspection } from '../model/inspection.js';
-import { isHexes } from '../model/job.js';
+import { kindOf, wantedKind } from '../model/job.js';
 import { formatCommand, parseLink } from '../model/link.js';
 import type { Entry, Linked } from '../model/link.js';
 import { Workbench } from '../model/workbench.js';
@@ -54,8 +54,8 @@ export class Page {
   readonly chosenFormat = signal<OutputFormat>('vtu');
   /** Formats that hold what was made, or will be. */
   readonly formats = computed(() => {
-    const mesh = this.workbench.result.value?.mesh;
-    return writable(mesh ? isHexes(mesh) : this.workbench.makesHexes.value);
+    const { job, result, settings } = this.workbench;
+    return writable(result.value ? kindOf(result.value.mesh) : wantedKind(job.value, settings.value));
   });
   readonly exportFormat = computed(() => (this.formats.value.some(({ format }) => format === this.chosenFormat.value) ? this.chosenFormat.value : 'vtu'));
   /** A short word after an action, such as "Link copied". */

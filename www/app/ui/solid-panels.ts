@@ -15,6 +15,8 @@ import { count, counted, significant } from '../model/text.js';
 const SHOWN = 8;
 /** What is shown around a lost feature, in parts of its size. */
 const AROUND = 1;
+/** What is shown around a node, in edges. */
+const EDGES_AROUND = 3;
 
 export function featurePanel(page: Page, mesh: HexedSolid): TemplateResult {
   const { features, euler, solidEuler } = mesh.result;
@@ -42,6 +44,23 @@ function item({ viewport }: Page, { what, id, fate, place, size }: Lost): Templa
   const where = place.map((x) => significant(x, 3)).join(', ');
   return html`<li><button class="text-button" type="button" title="Show it, at ${where}" @click=${() => viewport.showPlace(place as Vec3, AROUND * size)}>
     <i></i><span>${NAMES[what]} ${id + 1}</span><small>${fate}, ${what === 'curve' ? 'length' : 'size'} ${significant(size, 3)} at ${where}</small></button></li>`;
+}
+
+/** Nodes beside the corners, if there are any: on the solid, and off it where a hex would be turned inside out. */
+export function secondOrderPanel(page: Page, { report: { secondOrder: made } }: HexedSolid): TemplateResult | typeof nothing {
+  if (!made) return nothing;
+  const { farthest, nodes, onSolid, place, yielded } = made;
+  const yields = `${counted(yielded, 'node')} off the solid for the sake of ${yielded === 1 ? 'its' : 'their'} hexes, at most ${significant(farthest, 3)}`;
+  return html`<section aria-labelledby="second-order-title" data-second-order=${made.hex}>
+    <h2 id="second-order-title">Second order</h2>
+    <dl class="facts">
+      <dt>Nodes beside the corners</dt><dd>${count(nodes)}</dd>
+      <dt>On the solid</dt><dd>${count(onSolid)}</dd>
+    </dl>
+    <ul class="checks">${yielded === 0
+      ? html`<li class="good">${icon('check')}All on the boundary are on the solid</li>`
+      : html`<li class="bad">${icon('warn')}${place ? html`<button class="text-button" type="button" title="Show the farthest" @click=${() => page.viewport.showPlace(place as Vec3, EDGES_AROUND * page.workbench.settings.value.solid.edgeLength)}>${yields}</button>` : yields}</li>`}</ul>
+  </section>`;
 }
 
 /** Distances that are less than this part of the diagonal are none: there they are rounded off. */

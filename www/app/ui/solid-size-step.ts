@@ -6,7 +6,7 @@ import { curvature, edgeLength, numberField, segmented, slider, toggle } from '.
 import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { classesOf, mended } from '../model/features.js';
-import { BACKGROUNDS } from '../model/link.js';
+import { BACKGROUNDS, HEX_KINDS } from '../model/link.js';
 import { LIMITS } from '../model/settings.js';
 import { diagonal } from '../model/shape.js';
 import { count, counted, rounded } from '../model/text.js';
@@ -25,18 +25,22 @@ export function solidSizeStep(page: Page): TemplateResult {
     ${curvature(turn, (v) => workbench.editSolid({ curvature: v }))}
     ${features(page)}
     <details class="more" ?open=${page.moreSize.value} @toggle=${(event: Event) => (page.moreSize.value = (event.target as HTMLDetailsElement).open)}>
-      <summary>${icon('chevron')}Background and limits</summary>
+      <summary>${icon('chevron')}Background, nodes and limits</summary>
       ${further(page, length)}
     </details>`;
 }
 
 function further({ workbench }: Page, length: number): TemplateResult {
-  const { background, maxDistance, maxHexes, maxLevels } = workbench.settings.value.solid;
+  const { background, maxDistance, maxHexes, maxLevels, secondOrder } = workbench.settings.value.solid;
   const says = BACKGROUNDS.find((known) => known.background === background)?.note;
+  const kind = HEX_KINDS.find(({ hex }) => hex === secondOrder);
   return html`
     <div class="labelled"><span>Cut out of</span></div>
     ${segmented('Background', BACKGROUNDS.map(({ background: value, label, note }) => ({ value, label, note })), background, (v) => workbench.editSolid({ background: v }))}
     <p class="hint">${says}.</p>
+    <div class="labelled"><span>Nodes of a hex</span></div>
+    ${segmented('Nodes of a hex', HEX_KINDS.map(({ nodes: value, note }) => ({ value, label: value, note })), kind?.nodes ?? '8', (v) => workbench.editSolid({ secondOrder: HEX_KINDS.find(({ nodes }) => nodes === v)?.hex ?? null }))}
+    <p class="hint">${kind?.note}.</p>
     ${toggle('Hold to a distance', maxDistance !== null, (on) => workbench.editSolid({ maxDistance: on ? rounded(length * USUAL_DISTANCE) : null }))}
     ${maxDistance === null
       ? nothing
