@@ -7,8 +7,11 @@ use crate::geometry::Point;
 use crate::mesh::topology::{EdgeUses, Edges, edge_ids, hex_boundary};
 use crate::mesh::{Faces, NodeId, QuadMesh};
 
-/// A curve that turns by more than this at a node has a corner there, in degrees.
+/// A curve beside a curved patch that turns by more than this at a node has a corner there, in degrees.
 const CORNER_DEGREES: f64 = 50.0;
+
+/// The same of a curve between planar patches. A node that slides round any corner there takes area from one of them.
+const CORNER_IN_PLANE_DEGREES: f64 = 1e-4;
 
 /// An edge whose middle is this near to a crease lies on it, as a share of the edge.
 const ON_CREASE: f64 = 1e-6;
@@ -48,7 +51,8 @@ impl<'a> Constraints<'a> {
     ///
     /// A boundary face belongs to the patch nearest to its middle. A node all of whose faces belong to one patch
     /// slides on it, one where two patches meet along the curve between them. Where more meet, or the curve turns by
-    /// more than 50 degrees, the node is fixed; so it is where the boundary is no manifold.
+    /// more than 50 degrees (at all, if it is between planar patches), the node is fixed; so it is where the boundary is no
+    /// manifold.
     ///
     /// # Panics
     /// If a node id is out of range.
@@ -73,11 +77,16 @@ impl<'a> Constraints<'a> {
                 freedom[n.index()] = Freedom::Patch(patch);
             }
         }
+        let turns = |curve: u32, a: Point, b: Point| {
+            is_corner(a, b, if surface.is_in_plane(curve) { CORNER_IN_PLANE_DEGREES } else { CORNER_DEGREES })
+        };
         for (n, ends) in curve_ends(boundary, patch, surface).into_iter().enumerate() {
             let here = boundary.positions[n];
             freedom[n] = match ends.as_slice() {
                 [] => continue,
-                &[(Some(curve), a), (Some(other), b)] if curve == other && !is_corner(here - a, b - here) => {
+                &[(Some(curve), a), (Some(other), b)]
+                    if curve == other && !turns(curve, here - a, b - here) =>
+                {
                     Freedom::Curve(curve)
                 }
                 _ => Freedom::Fixed,
@@ -192,7 +201,7 @@ fn curve_ends(
     ends
 }
 
-/// Does a curve that arrives along `a` and leaves along `b` turn too much for a node to slide round?
-fn is_corner(a: Point, b: Point) -> bool {
-    a.normalize_or_zero().dot(b.normalize_or_zero()) < libm::cos(CORNER_DEGREES.to_radians())
+/// Does a curve that arrives along `a` and leaves along `b` turn by more than so many degrees?
+fn is_corner(a: Point, b: Point, degrees: f64) -> bool {
+    a.normalize_or_zero().dot(b.normalize_or_zero()) < libm::cos(degrees.to_radians())
 }

@@ -216,6 +216,11 @@ impl BoundarySurface {
         self.curves[curve as usize].constant.is_some()
     }
 
+    /// Are all patches that end at a curve planar? Then it is straight, or these are in one plane.
+    pub(super) fn is_in_plane(&self, curve: u32) -> bool {
+        self.ends_at[curve as usize].iter().all(|&patch| self.is_planar(patch))
+    }
+
     /// The point of a curve nearest to `p`.
     pub(super) fn closest_on_curve(&self, curve: u32, p: Point) -> Point {
         self.curves[curve as usize].closest(p)

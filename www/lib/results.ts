@@ -132,7 +132,7 @@ export interface HexQuality {
 
 /** Elements that are refined beyond those asked for, by the reason. */
 export interface AddedHexes {
-  /** Hexes of the input that nothing asks for, so that all elements are in families of eight. */
+  /** Hexes of the input that nothing asks for, so that all elements are in families, or some in blocks, of eight. */
   base: number;
   /** To complete families of eight. */
   families: number;

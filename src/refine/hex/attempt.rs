@@ -21,9 +21,9 @@ pub(super) enum Attempt {
     Tangled { coarse: Vec<u32>, hexes: usize },
 }
 
-/// Where hexes stay inverted, all nodes so many rings of hexes around move too: a layer along a concave ridge needs room
-/// that the hexes beside it have.
-const WIDER: [usize; 2] = [2, 4];
+/// Where hexes stay inverted, all nodes up to so many rings of hexes around them move, of the layer or not: a layer along a
+/// concave ridge needs room that the hexes beside it have.
+const WIDER: [usize; 3] = [2, 4, 8];
 
 /// Makes a stage, untangles its transition, smooths it and mends what that leaves poor.
 pub(super) fn attempt(
@@ -45,17 +45,22 @@ pub(super) fn attempt(
     let has_none = |faces: &HexFaces| next.mesh.materials.is_empty() && local.is_inside(faces);
     let options = smoothing(method, faces.as_ref().is_none_or(has_none));
     let mut tangled = local.relax(&next, faces, surface, &options, monitor)?;
+    local.write_back(&mut next.mesh.positions);
+    let mut smoothed = local.hex_ids;
     for rings in WIDER {
         if tangled.is_empty() {
             break;
         }
-        local = Local::wider(&next, &tangled, rings, monitor)?;
+        let mut local = Local::beside(&next, &tangled, rings, monitor)?;
         let faces = Some(local.faces(monitor)?);
-        tangled = local.relax(&next, faces, surface, &options, monitor)?;
+        tangled = local.relax(&next, faces, surface, &OptimizeOptions::default(), monitor)?;
+        local.write_back(&mut next.mesh.positions);
+        smoothed.extend(local.hex_ids);
     }
-    local.write_back(&mut next.mesh.positions);
     if tangled.is_empty() {
-        mend_poor(&mut next, &local.hex_ids, mesh, surface, monitor)?;
+        smoothed.sort_unstable();
+        smoothed.dedup();
+        mend_poor(&mut next, &smoothed, mesh, surface, monitor)?;
         return Ok(Attempt::Made(Box::new(next)));
     }
     Ok(Attempt::Tangled { coarse: coarse_at(&next, &tangled), hexes: tangled.len() })

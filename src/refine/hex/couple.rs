@@ -24,6 +24,7 @@ pub(super) fn middles_of_families(layer: &[LayerHex], octant: &[u8]) -> Option<V
 
 /// Which of the corners 0..4 of each hex of the layer is its `f`; or the refined hexes at faces that no group
 /// can have, ascending.
+///
 /// How flat groups are is asked of the faces where the layer stands, in the mesh `before`.
 pub(super) fn coupled_middles(before: &StageMesh, layer: &[LayerHex]) -> Result<Vec<u8>, Vec<u32>> {
     Sheet::new(before, layer).couple(layer)

@@ -43,17 +43,22 @@ impl<'a> Grouping<'a> {
         Ok(Self { hexes, faces, uses })
     }
 
-    /// The block of each hex: blocks have the refined hexes, as far as these can be in any, with few others. Hexes that are in
-    /// none are blocks of their own.
+    /// The block of each hex: blocks have the `wanted` ones of the refined hexes, as far as these can be in any, with few
+    /// others. Hexes that are in none are blocks of their own.
     ///
     /// # Errors
     /// If the monitor stops it.
-    pub(super) fn blocks(&self, refined: &[bool], monitor: &dyn Monitor) -> Result<Vec<u32>, Cancelled> {
+    pub(super) fn blocks(
+        &self,
+        refined: &[bool],
+        wanted: &[u32],
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<u32>, Cancelled> {
         let count = self.hexes.len();
         let mut block: Vec<u32> = (0..count as u32).collect();
         let (mut is_taken, mut is_seen) = (vec![false; count], vec![false; count]);
-        for batch in batches(count, monitor) {
-            for hex in batch?.filter(|&hex| refined[hex]) {
+        for batch in batches(wanted.len(), monitor) {
+            for hex in batch?.map(|k| wanted[k] as usize) {
                 if is_taken[hex] {
                     continue;
                 }
@@ -76,6 +81,25 @@ impl<'a> Grouping<'a> {
             }
         }
         Ok(block)
+    }
+
+    /// Is each hex in one piece with one of these, from node to node?
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub(super) fn bodies_of(&self, hexes: &[u32], monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
+        let mut is_in = vec![false; self.hexes.len()];
+        let mut queue: Vec<usize> = hexes.iter().map(|&hex| hex as usize).collect();
+        queue.iter().for_each(|&hex| is_in[hex] = true);
+        while let Some(hex) = queue.pop() {
+            monitor.proceed()?;
+            for (other, _) in self.hexes[hex].into_iter().flat_map(|node| self.hexes_at(node)) {
+                if !std::mem::replace(&mut is_in[other], true) {
+                    queue.push(other);
+                }
+            }
+        }
+        Ok(is_in)
     }
 
     /// The hexes at a node, and its corners there.

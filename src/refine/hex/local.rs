@@ -37,27 +37,15 @@ impl Local {
         Self::of_movable(stage, &moves, monitor)
     }
 
-    /// The same, and all nodes up to `rings` of hexes away from those of `tangled` may move too.
-    pub(super) fn wider(
-        stage: &StageResult,
-        tangled: &[HexId],
-        rings: usize,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, Cancelled> {
-        let mut near = near(stage, tangled, rings, monitor)?;
-        stage.layer_nodes.iter().for_each(|n| near[n.index()] = true);
-        Self::of_movable(stage, &near, monitor)
-    }
-
-    /// The hexes at nodes up to `rings` of hexes away from those of `poor`, which may move; where the surface is curved only
-    /// if they are the layer's.
+    /// The hexes at nodes up to `rings` of hexes away from those of `some`, which may move; where the surface is curved only
+    /// if they are the layer's, since what is divided later stands on the chords between the others.
     pub(super) fn beside(
         stage: &StageResult,
-        poor: &[HexId],
+        some: &[HexId],
         rings: usize,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let near = near(stage, poor, rings, monitor)?;
+        let near = near(stage, some, rings, monitor)?;
         let local = Self::of_movable(stage, &near, monitor)?;
         let is_of_layer = |n: &NodeId| stage.layer_nodes.binary_search(n).is_ok();
         Ok(Self { stays_if_curved: local.nodes.iter().map(|n| !is_of_layer(n)).collect(), ..local })
@@ -195,7 +183,7 @@ impl Local {
     }
 
     /// The length of the shortest edge.
-    pub(super) fn shortest_edge(&self) -> f64 {
+    fn shortest_edge(&self) -> f64 {
         let length = |hex: &[NodeId; 8], [a, b]: [u8; 2]| {
             let [a, b] = [a, b].map(|k| self.positions[hex[usize::from(k)].index()]);
             a.distance_squared(b)
@@ -206,7 +194,7 @@ impl Local {
     }
 
     /// Moves the nodes back to where the mesh's are.
-    pub(super) fn put_back(&mut self, positions: &[Point]) {
+    fn put_back(&mut self, positions: &[Point]) {
         for (node, point) in self.nodes.iter().zip(&mut self.positions) {
             *point = positions[node.index()];
         }

@@ -234,7 +234,7 @@ impl Monitor for OfLevel<'_> {
     }
 }
 
-/// Keeps progress from falling where the work begins again.
+/// Keeps progress from falling where the work begins again, of which it goes on to tell.
 struct Rising<'a> {
     inner: &'a dyn Monitor,
     told: Mutex<Vec<(Stage, f64)>>,
@@ -243,12 +243,17 @@ struct Rising<'a> {
 impl Monitor for Rising<'_> {
     fn progress(&self, stage: Stage, fraction: f64) {
         let mut told = self.told.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        match told.iter_mut().find(|(known, _)| *known == stage) {
-            Some((_, most)) if *most >= fraction => return,
-            Some((_, most)) => *most = fraction,
-            None => told.push((stage, fraction)),
-        }
-        self.inner.progress(stage, fraction);
+        let most = match told.iter_mut().find(|(known, _)| *known == stage) {
+            Some((_, most)) => {
+                *most = most.max(fraction);
+                *most
+            }
+            None => {
+                told.push((stage, fraction));
+                fraction
+            }
+        };
+        self.inner.progress(stage, most);
     }
 
     fn cancelled(&self) -> bool {

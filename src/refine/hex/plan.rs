@@ -245,14 +245,18 @@ impl<'a> HexPlan<'a> {
         loop {
             let base = trees.level(0);
             let joining = joining(&mesh, base.is_refined, monitor)?;
-            if let Joining::Possible = joining {
-                return Ok(());
-            }
+            let at_fault = match &joining {
+                Joining::Possible => return Ok(()),
+                Joining::Ungrouped(hexes) => hexes.clone(),
+                Joining::Conflict(_) => {
+                    (0..base.elements.len() as u32).filter(|&e| base.is_refined[e as usize]).collect()
+                }
+            };
             let grouping = match &mut grouping {
                 Some(known) => known,
                 none => none.insert(Grouping::of(mesh.positions.len(), &mesh.hexes, monitor)?),
             };
-            let of_blocks = rest_of_blocks(&grouping.blocks(base.is_refined, monitor)?, base);
+            let of_blocks = rest_of_blocks(&grouping.blocks(base.is_refined, &at_fault, monitor)?, base);
             match joining {
                 _ if !of_blocks.is_empty() => self.refine_unasked(trees, &of_blocks, monitor)?,
                 Joining::Conflict(more) => {
@@ -262,9 +266,10 @@ impl<'a> HexPlan<'a> {
                     self.close(trees, monitor)?;
                 }
                 _ => {
-                    let rest = (0..base.elements.len() as u32).filter(|&e| !base.is_refined[e as usize]);
-                    let rest: Vec<u32> = rest.collect();
-                    return self.refine_unasked(trees, &rest, monitor);
+                    let all = grouping.bodies_of(&at_fault, monitor)?;
+                    let is_rest = |e: &u32| all[*e as usize] && !base.is_refined[*e as usize];
+                    let rest: Vec<u32> = (0..base.elements.len() as u32).filter(is_rest).collect();
+                    self.refine_unasked(trees, &rest, monitor)?;
                 }
             }
         }

@@ -228,8 +228,8 @@ pub(super) enum Joining {
     Possible,
     /// These hexes must be refined too.
     Conflict(Vec<u32>),
-    /// Its interface cannot be grouped two by two.
-    Ungrouped,
+    /// At these refined hexes its interface cannot be grouped two by two.
+    Ungrouped(Vec<u32>),
 }
 
 /// Looks whether Method II can join the set.
@@ -240,10 +240,10 @@ pub(super) fn joining(
 ) -> Result<Joining, Cancelled> {
     let mut interface = mesh.interface(refined, monitor)?;
     match pillow(&mesh.positions, &mut interface, monitor) {
-        Ok(pillow) if quarters(&pillow, mesh).is_ok() => Ok(Joining::Possible),
+        Ok(pillow) => Ok(quarters(&pillow, mesh).map_or_else(Joining::Ungrouped, |_| Joining::Possible)),
         Err(StageError::Conflict(more)) => Ok(Joining::Conflict(more)),
         Err(StageError::Cancelled(cancelled)) => Err(cancelled),
-        _ => Ok(Joining::Ungrouped),
+        Err(StageError::Forbidden(hexes) | StageError::NotCouplable(hexes)) => Ok(Joining::Ungrouped(hexes)),
     }
 }
 

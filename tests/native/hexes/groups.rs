@@ -10,7 +10,7 @@ use hexmill::refine::hex::{HexOptions, Method, RefinedHexes, refine_hexes};
 use hexmill::sizing::Region;
 
 use super::acceptance::{block, named};
-use super::meshes::{Numbers, cubes, cylinder, i_beam};
+use super::meshes::{Numbers, cells, cubes, cylinder, i_beam};
 
 /// Gives groups to the boundary faces of a mesh, by their middles and outward normals.
 fn grouped(mesh: &HexMesh, group: impl Fn(Point, Point) -> Option<u32>) -> HexMesh {
@@ -106,6 +106,26 @@ fn groups_end_where_they_did_on_flat_sides() {
     for (name, regions) in worlds {
         for method in METHODS {
             check(name, &cubes(3), regions.clone(), method, patches);
+        }
+    }
+}
+
+/// A border that turns on a flat side keeps its corner, by however few degrees it turns.
+#[test]
+fn borders_keep_their_corners_on_flat_sides() {
+    for degrees in [5.0_f64, 25.0, 35.0] {
+        // The plane between two halves is bent at y = 2; the sides stay flat.
+        let bend = |y: f64| degrees.to_radians().tan() * (y - 2.0).max(0.0);
+        let place = |p: Point| Point::new(p.x + bend(p.y) * (1.0 - (p.x - 2.0).abs() / 2.0), p.y, p.z);
+        let input = cells([4, 4, 4], |_| true, place);
+        let halves = |middle: Point, normal: Point| match side_of(middle, normal)? {
+            4 => Some(u32::from(middle.x > 2.0 + bend(middle.y))),
+            _ => None,
+        };
+        let regions =
+            [block([1.0, 1.0, 0.0], [3.0, 2.0, 1.0], 2), block([2.0, 1.0, 0.0], [4.0, 4.0, 1.0], 2)];
+        for (region, method) in regions.iter().flat_map(|region| METHODS.map(|method| (region, method))) {
+            check(&format!("turn of {degrees}"), &input, vec![region.clone()], method, halves);
         }
     }
 }

@@ -7,7 +7,7 @@ use hexmill::refine::hex::{Growth, HexOptions, HexPlan, HexRefineError, Method, 
 use hexmill::sizing::Region;
 
 use super::acceptance::block;
-use super::meshes::{cubes, i_beam};
+use super::meshes::{cells, cubes, i_beam};
 
 const METHODS: [Method; 4] = [Method::One, Method::Two, Method::Three, Method::Auto];
 
@@ -38,6 +38,26 @@ fn hexes_of_the_input_that_nothing_asks_for_are_told() {
             let asked = size.pow(3) as usize - rest;
             assert_eq!(refined.stages[0].refined, asked + base, "{size}, {method:?}");
         }
+    }
+}
+
+/// What cannot be grouped calls for hexes beside it alone: not beside what can be, and not in bodies that it does not touch.
+#[test]
+fn only_what_cannot_be_grouped_calls_for_more() {
+    let layer = block([0.0; 3], [8.0, 8.0, 1.0], 1);
+    let far = block([6.0; 3], [7.0; 3], 1);
+    // A plate of one layer, where there are no blocks, and a cube away from it.
+    let apart =
+        cells([13, 8, 8], |[x, y, z]| if x < 4 { y < 4 && z == 0 } else { x > 4 }, std::convert::identity);
+    let of_plate = block([1.0, 1.0, 0.0], [2.0, 2.0, 1.0], 1);
+    for (input, regions, base, hexes) in
+        [(cubes(8), vec![layer, far], 7, 1632), (apart, vec![of_plate], 15, 8 * 16 + 512)]
+    {
+        let options = options(Method::Auto, Growth::Allow, &regions);
+        let refined = refine_hexes(&input, &options, &Silent).expect("a mesh");
+        assert_eq!(check_hexes(&refined.mesh), []);
+        assert_eq!((refined.added.base, refined.added.growth()), (base, base));
+        assert_eq!(refined.mesh.hexes.len(), hexes);
     }
 }
 

@@ -33,7 +33,20 @@ fn unrepaired(name: String, input: HexMesh, regions: Vec<Region>, method: Method
     (made.worst, made.refined.mesh.hexes.len())
 }
 
-/// Layers of cubes from below: `R` is refined, `c` is coarse. The first row of each is the furthest back.
+/// Layers of cubes from below, of two rows: `R` is refined, `c` is coarse. The first row of each is the furthest back.
+fn pictured(picture: &[&str], method: Method) -> (HexMesh, Vec<Region>) {
+    let at = |[x, y, z]: [usize; 3]| picture[2 * z + 1 - y].as_bytes()[x];
+    let size = [picture[0].len(), 2, picture.len() / 2];
+    let all = (0..size.iter().product()).map(|k| [k % size[0], k / size[0] % 2, k / size[0] / 2]);
+    let inside = |cell: [usize; 3]| {
+        let min = cell.map(|c| c as f64);
+        block(min.map(|c| c + 0.3), min.map(|c| c + 0.7), level(method))
+    };
+    let regions = all.filter(|&cell| at(cell) == b'R').map(inside).collect();
+    (cells(size, |cell| at(cell) != b'.', |p| p), regions)
+}
+
+/// Pictures of two by two by two cubes.
 const SMALL: [[&str; 4]; 6] = [
     // The refined side would leave the end of a concave ridge in line with it.
     ["..", "c.", "c.", "RR"],
@@ -49,19 +62,23 @@ const SMALL: [[&str; 4]; 6] = [
 #[test]
 fn the_ends_of_concave_ridges() {
     for (number, picture) in SMALL.iter().enumerate() {
-        let at = |[x, y, z]: [usize; 3]| picture[2 * z + 1 - y].as_bytes()[x];
         for method in METHODS {
-            let input = cells([2; 3], |cell| at(cell) != b'.', |p| p);
-            let all = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2]);
-            let inside = |cell: [usize; 3]| {
-                let min = cell.map(|c| c as f64);
-                block(min.map(|c| c + 0.3), min.map(|c| c + 0.7), level(method))
-            };
-            let regions = all.filter(|&cell| at(cell) == b'R').map(inside).collect();
+            let (input, regions) = pictured(picture, method);
             let (worst, hexes) = unrepaired(format!("picture {number}"), input, regions, method);
             println!("{number}, {method:?}: {hexes} hexes, worst {worst:.3}");
         }
     }
+}
+
+/// Where transition hexes stay inside out one coarse hex beside them is refined, not all that they touch.
+#[test]
+fn a_tangle_calls_for_one_hex() {
+    let (input, regions) = pictured(&[".cc", "cc.", ".RR", "cc.", ".c.", "cc."], Method::Three);
+    let name = "a bent bar".into();
+    let world = World { name, input, regions, boundary: Boundary::Planar, least: [0.0; 2] };
+    let made = judged(&world, Method::Three);
+    assert!(made.refined.added.repairs <= 1, "{:?}", made.refined.added);
+    assert!(made.worst > 0.1, "{}", made.worst);
 }
 
 #[test]

@@ -55,7 +55,7 @@ const PLURAL = { quad: 'quads', hex: 'hexes' } as const;
 
 /** Why more was refined than asked for. */
 const ADDED: readonly (readonly [keyof AddedHexes, string])[] = [
-  ['base', 'for families of eight everywhere'],
+  ['base', 'for families or blocks of eight'],
   ['families', 'to complete families of eight'],
   ['balance', 'to grade levels by one'],
   ['method', 'for the method’s templates'],

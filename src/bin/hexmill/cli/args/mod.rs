@@ -241,7 +241,8 @@ pub(crate) enum MethodArg {
     Two,
     /// A pillow, hexes in 27
     Three,
-    /// Method two; of the input whole blocks of 2 x 2 x 2 hexes are refined, and all only where there are none
+    /// Method two; of the input what is asked for is refined, where that cannot be joined whole blocks of 2 x 2 x 2 hexes, and
+    /// all of a body only where there are none
     Auto,
 }
 
