@@ -31,6 +31,8 @@ pub(super) enum CellKind {
     Hex20,
     /// As `Hex20`, and a node on each face and inside.
     Hex27,
+    /// As `Hex20`, a node inside, and on any of the faces another.
+    Hex21To27,
 }
 
 impl CellKind {
@@ -46,6 +48,7 @@ impl CellKind {
             Self::Quad9 => 9..=9,
             Self::Hex20 => 20..=20,
             Self::Hex27 => 27..=27,
+            Self::Hex21To27 => 21..=27,
         }
     }
 
@@ -54,14 +57,14 @@ impl CellKind {
         match self {
             Self::Edge3 => Some((Self::Polyline, 2)),
             Self::Quad8 | Self::Quad9 => Some((Self::Quad, 4)),
-            Self::Hex20 | Self::Hex27 => Some((Self::Hex, 8)),
+            Self::Hex20 | Self::Hex27 | Self::Hex21To27 => Some((Self::Hex, 8)),
             _ => None,
         }
     }
 
     /// True of hexahedra.
     pub fn is_hex(self) -> bool {
-        matches!(self, Self::Hex | Self::Voxel | Self::Hex20 | Self::Hex27)
+        matches!(self, Self::Hex | Self::Voxel | Self::Hex20 | Self::Hex27 | Self::Hex21To27)
     }
 
     /// The kind of VTK's cell type `number`, or the name of a kind that is not read.
@@ -149,7 +152,7 @@ impl CellKind {
         } else if in_family(&SOLIDS, "20") {
             Ok(Self::Hex20)
         } else if in_family(&SOLIDS, "27") {
-            Ok(Self::Hex27)
+            Ok(Self::Hex21To27)
         } else if NO_FACES.iter().any(|family| name.starts_with(family)) {
             Ok(Self::Skipped)
         } else if in_family(&SOLIDS, "4") {

@@ -109,9 +109,7 @@ impl<'a> Tokens<'a> {
     /// A number of any kind that `parse` knows.
     fn number<T>(&mut self, what: &str, parse: fn(&[u8]) -> Option<T>) -> Result<T, ReadError> {
         let word = self.expect(what)?;
-        parse(word).ok_or_else(|| {
-            self.refuse(code::BAD_NUMBER, format!("{} stands where {what} should: a number", excerpt(word)))
-        })
+        parse(word).ok_or_else(|| self.refuse(code::BAD_NUMBER, not_a_number(word, what)))
     }
 
     /// A real number.
@@ -129,14 +127,15 @@ impl<'a> Tokens<'a> {
     pub fn count(&mut self, what: &str, bytes_each: usize) -> Result<usize, ReadError> {
         let count = self.integer(what)?;
         let most = self.remaining() / bytes_each.max(1) + 1;
-        match usize::try_from(count) {
-            Ok(fits) if fits <= most => Ok(fits),
-            Ok(_) => Err(self.refuse(
-                code::TRUNCATED,
-                format!("{what} is {count}, but the rest of the file has room for {most} at most — it is cut short or damaged"),
-            )),
-            Err(_) => Err(self.refuse(code::BAD_NUMBER, format!("{what} is {count}; it cannot be negative"))),
+        if count < 0 {
+            return Err(self.refuse(code::BAD_NUMBER, format!("{what} is {count}; it cannot be negative")));
         }
+        usize::try_from(count).ok().filter(|&fits| fits <= most).ok_or_else(|| {
+            let message = format!(
+                "{what} is {count}, but the rest of the file has room for {most} at most — it is cut short or damaged"
+            );
+            self.refuse(code::TRUNCATED, message)
+        })
     }
 }
 
@@ -144,6 +143,15 @@ impl<'a> Tokens<'a> {
 pub(super) fn parse_float(word: &[u8]) -> Option<f64> {
     let word = std::str::from_utf8(word).ok()?;
     word.parse().ok().or_else(|| word.replace(['d', 'D'], "e").parse().ok())
+}
+
+/// What is wrong with a word that does not parse as the number `what`.
+pub(super) fn not_a_number(word: &[u8], what: &str) -> String {
+    let digits = word.strip_prefix(b"-").or_else(|| word.strip_prefix(b"+")).unwrap_or(word);
+    if !digits.is_empty() && digits.iter().all(u8::is_ascii_digit) {
+        return format!("{} stands where {what} should; the number is too large", excerpt(word));
+    }
+    format!("{} stands where {what} should: a number", excerpt(word))
 }
 
 /// A whole number with an optional sign.

@@ -1,7 +1,7 @@
 //! Lines of an Abaqus input deck: keywords with their parameters, and data.
 
-use crate::io::refusal::{code, excerpt, refuse};
-use crate::io::tokens::{parse_float, parse_integer};
+use crate::io::refusal::{code, refuse};
+use crate::io::tokens::{not_a_number, parse_float, parse_integer};
 use crate::io::{Format, ReadError};
 
 /// The lines of a file that say something: comments and empty lines are left out.
@@ -55,6 +55,13 @@ impl<'a> Lines<'a> {
             return None;
         }
         Some(line)
+    }
+
+    /// Is an element that may end here, and lacks `missing` of the nodes that it may have, continued after `line`? It is
+    /// after a comma, or where the next line has just these nodes.
+    pub fn continue_element(&self, line: Line<'_>, missing: usize) -> bool {
+        let next = Self { ..*self }.next_data();
+        next.is_some_and(|next| line.text.ends_with(b",") || next.fields().count() == missing)
     }
 
     /// The next keyword; data lines before it are stepped over.
@@ -132,6 +139,6 @@ impl<'a> Line<'a> {
     }
 
     fn bad_number(self, field: &[u8], what: &str) -> ReadError {
-        self.refuse(code::BAD_NUMBER, format!("{} stands where {what} should: a number", excerpt(field)))
+        self.refuse(code::BAD_NUMBER, not_a_number(field, what))
     }
 }

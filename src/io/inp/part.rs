@@ -93,10 +93,9 @@ impl Part {
         if kind == CellKind::Skipped {
             return Ok(());
         }
-        let node_count = *kind.size().start() as u8;
         let first = self.elements.len() as u32;
         while let Some(line) = lines.next_data() {
-            self.read_element(kind, node_count, line, lines)?;
+            self.read_element(kind, line, lines)?;
         }
         if let Some(name) = keyword.get("ELSET").filter(|name| !name.is_empty()) {
             let set = self.set(name, None);
@@ -109,7 +108,6 @@ impl Part {
     fn read_element<'a>(
         &mut self,
         kind: CellKind,
-        node_count: u8,
         first: Line<'a>,
         lines: &mut Lines<'a>,
     ) -> Result<(), ReadError> {
@@ -121,11 +119,16 @@ impl Part {
             return Err(line.refuse(code::DUPLICATE_NUMBER, message));
         }
         let first_node = self.nodes.len();
-        while self.nodes.len() < first_node + usize::from(node_count) {
+        let size = kind.size();
+        let (least, most) = (*size.start(), *size.end());
+        while self.nodes.len() < first_node + most {
             let Some(field) = fields.next() else {
                 let found = self.nodes.len() - first_node;
+                if found >= least && !lines.continue_element(line, most - found) {
+                    break;
+                }
                 line = lines.next_data().ok_or_else(|| {
-                    let message = format!("element {number} has {found} nodes; its type needs {node_count}");
+                    let message = format!("element {number} has {found} nodes; its type needs {least}");
                     line.refuse(code::CELL_SIZE, message)
                 })?;
                 fields = line.fields();
@@ -143,11 +146,12 @@ impl Part {
         }
         if let Some(more) = fields.next().filter(|field| !field.is_empty()) {
             let message = format!(
-                "element {number} has more than the {node_count} nodes of its type: {} follows",
+                "element {number} has more than the {most} nodes of its type: {} follows",
                 excerpt(more)
             );
             return Err(line.refuse(code::CELL_SIZE, message));
         }
+        let node_count = (self.nodes.len() - first_node) as u8;
         self.elements.push(Element { number, kind, line: first.number, first_node, node_count });
         Ok(())
     }

@@ -7,8 +7,8 @@
 //! quadrilaterals, so a surface that mixes them comes back in another order. Polygons of more than
 //! four nodes are refused.
 //!
-//! Read: versions 1 to 4, dimensions 2 and 3, references as tags, `Edges`, `Ridges` and `Corners`; required
-//! entities, normals, tangents and sections of other programs are stepped over.
+//! Read: versions 1 to 4, dimensions 2 and 3, references as tags, `Edges`, `Ridges` and `Corners`; of hexahedra of the
+//! second order and their faces the corners; required entities, normals, tangents and sections of other programs are stepped over.
 
 mod read;
 mod write;

@@ -23,6 +23,10 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
             b"Quadrilaterals" => file.read_cells(CellKind::Quad, 4)?,
             // The second spelling is that of the first programs.
             b"Hexahedra" | b"Hexaedra" => file.read_cells(CellKind::Hex, 8)?,
+            b"QuadrilateralsQ2" => file.read_cells(CellKind::Quad9, 9)?,
+            b"HexahedraQ2" => file.read_cells(CellKind::Hex27, 27)?,
+            b"QuadrilateralsQ2Ordering" => file.check_order(keyword, &Q2_CORNERS[..4], 2)?,
+            b"HexahedraQ2Ordering" => file.check_order(keyword, &Q2_CORNERS, 3)?,
             b"Edges" => file.read_cells(CellKind::Polyline, 2)?,
             b"Corners" => file.corners = file.read_list()?,
             b"Ridges" => file.ridges = file.read_list()?,
@@ -33,18 +37,21 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
 }
 
 /// Kinds of cells that would be lost if their section were stepped over.
-const REFUSED: [(&[u8], &str); 10] = [
+const REFUSED: [(&[u8], &str); 8] = [
     (b"Tetrahedra", "tetrahedra"),
     (b"Pyramids", "pyramids"),
     (b"Prisms", "prisms"),
     (b"Pentahedra", "prisms"),
     (b"TrianglesP2", "triangles of second order"),
-    (b"QuadrilateralsQ2", "quadrilaterals of second order"),
-    (b"HexahedraQ2", "hexahedra of second order"),
     (b"TetrahedraP2", "tetrahedra of second order"),
     (b"PrismsP2", "prisms of second order"),
     (b"PyramidsP2", "pyramids of second order"),
 ];
+
+/// The places of the corners of a hexahedron of the second order, of which those of a quadrilateral are the first four, in
+/// steps of half an edge: the first nodes unless the file says otherwise.
+const Q2_CORNERS: [[i64; 3]; 8] =
+    [[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]];
 
 struct MeditFile<'a> {
     tokens: Tokens<'a>,
@@ -129,7 +136,7 @@ impl<'a> MeditFile<'a> {
         let Some(cells) = &mut self.cells else {
             return Err(self.tokens.refuse(code::SYNTAX, "the cells come before the Vertices"));
         };
-        let mut nodes = [0; 8];
+        let mut nodes = [0; 27];
         let nodes = &mut nodes[..size];
         for _ in 0..count {
             for node in &mut *nodes {
@@ -149,6 +156,28 @@ impl<'a> MeditFile<'a> {
         (0..count).map(|_| self.tokens.integer("a number of a node or edge")).collect()
     }
 
+    /// Reads where the nodes of cells of the second order stand in these, a place along each of their `axes`. The first nodes
+    /// have to be the corners in the usual order.
+    fn check_order(&mut self, keyword: &[u8], corners: &[[i64; 3]], axes: usize) -> Result<(), ReadError> {
+        let count = self.tokens.count("the number of nodes of a cell", 2 * axes)?;
+        let mut is_usual = count >= corners.len();
+        for node in 0..count {
+            for axis in 0..axes {
+                let place = self.tokens.integer("the place of a node in a cell")?;
+                is_usual &= corners.get(node).is_none_or(|corner| corner[axis] == place);
+            }
+        }
+        if is_usual {
+            return Ok(());
+        }
+        let message = format!(
+            "{} gives the nodes of cells in an order that is not read — put the corners first, in the order of Hexahedra or \
+             Quadrilaterals",
+            excerpt(keyword)
+        );
+        Err(self.tokens.refuse(code::UNSUPPORTED_FEATURE, message))
+    }
+
     /// Steps over the numbers of a section that says nothing of the mesh.
     fn skip_section(&mut self, keyword: &[u8]) -> Result<(), ReadError> {
         if !keyword[0].is_ascii_alphabetic() {
@@ -159,8 +188,8 @@ impl<'a> MeditFile<'a> {
             && self.tokens.peek() != Some(b"0")
         {
             let message = format!(
-                "the file has {name}; only triangles, quadrilaterals and hexahedra of first order are read — \
-                 remove the other cells or convert them first"
+                "the file has {name}; only triangles and quadrilaterals of first order, and hexahedra of first and second \
+                 order with their faces, are read — remove the other cells or convert them first"
             );
             return Err(self.tokens.refuse(code::UNSUPPORTED_CELL, message));
         }

@@ -40,7 +40,8 @@ impl<'a> LegacyFile<'a> {
     pub fn number(&mut self, what: &str) -> Result<usize, ReadError> {
         let number = self.tokens.integer(what)?;
         usize::try_from(number).map_err(|_| {
-            self.tokens.refuse(code::BAD_NUMBER, format!("{what} is {number}; it cannot be negative"))
+            let wrong = if number < 0 { "it cannot be negative" } else { "it is too large" };
+            self.tokens.refuse(code::BAD_NUMBER, format!("{what} is {number}; {wrong}"))
         })
     }
 

@@ -7,7 +7,7 @@ use super::base64_stream::{Base64Stream, StreamError};
 use super::xml::{DataArray, Place, XmlFile, line_at, refuse_at};
 use crate::io::refusal::{code, excerpt};
 use crate::io::scalars::{Column, Scalar};
-use crate::io::tokens::{Tokens, parse_float, parse_integer};
+use crate::io::tokens::{Tokens, not_a_number, parse_float, parse_integer};
 use crate::io::{Format, ReadError};
 
 /// Bytes that the numbers of all arrays may take for each byte of the file. Deflate packs a thousand into one, and
@@ -240,7 +240,7 @@ impl<'a> Decoder<'a> {
 }
 
 fn bad_word(words: &Tokens<'_>, word: &[u8]) -> ReadError {
-    words.refuse(code::BAD_NUMBER, format!("{} stands where a number should", excerpt(word)))
+    words.refuse(code::BAD_NUMBER, not_a_number(word, "an entry of an array"))
 }
 
 fn without_white_space(text: &[u8]) -> Cow<'_, [u8]> {

@@ -124,6 +124,87 @@ fn element_types_of_abaqus_are_known_by_their_shape() {
     }
 }
 
+/// Of the nodes on faces any may be missing. An element ends where its line does without a comma, unless the next line has just
+/// the nodes that are missing.
+#[test]
+fn elements_of_abaqus_may_lack_nodes_on_faces() {
+    let places = |n: usize| Point::new((n % 3) as f64, (n / 3 % 3) as f64, (n / 9) as f64);
+    let mut nodes = String::from("*NODE\n");
+    for n in 0..27 {
+        let p = places(n);
+        nodes += &format!("{}, {}, {}, {}\n", n + 1, p.x, p.y, p.z);
+    }
+    // Corners, edges, the node inside, faces.
+    const HEX: [u32; 27] =
+        [1, 3, 9, 7, 19, 21, 27, 25, 2, 6, 8, 4, 20, 24, 26, 22, 10, 12, 18, 16, 14, 5, 23, 11, 15, 17, 13];
+    let element = |number: u32, count: usize, breaks: &[usize], end: &str| {
+        let mut text = number.to_string();
+        for (place, node) in HEX[..count].iter().enumerate() {
+            text += if breaks.contains(&place) { end } else { ", " };
+            text += &node.to_string();
+        }
+        text + "\n"
+    };
+    let read_elements = |elements: &str| {
+        let text = format!("{nodes}*ELEMENT, TYPE=C3D27R, ELSET=block\n{elements}*ELSET, ELSET=b\n1\n");
+        read(text.as_bytes(), Format::Inp)
+    };
+    for count in 21..=27 {
+        for (breaks, end) in [(vec![15], ",\n"), (vec![15], "\n"), (vec![8, 16, 20], ",\n"), (vec![], "")] {
+            let again = element(1, count, &breaks, end) + &element(2, count, &breaks, end);
+            let document = read_elements(&again).expect("two hexes");
+            assert_eq!((document.linearized, hexes(&document).hexes.len()), (2, 2), "{count} {breaks:?}");
+            // Nodes that the elements lack are of no cell, and stay.
+            assert_eq!(hexes(&document).positions.len(), 8 + 27 - count, "{count} {breaks:?}");
+            assert_eq!(hexes(&document).positions.last(), Some(&places(26)));
+        }
+    }
+    let broken_late = element(1, 27, &[7, 15, 23], "\n") + &element(2, 27, &[7, 15, 23], "\n");
+    assert_eq!(read_elements(&broken_late).expect("two hexes").linearized, 2);
+    for count in [8, 20] {
+        let error = read_elements(&element(1, count, &[15], ",\n")).expect_err("too few nodes");
+        assert_eq!(error.code, "cell-size");
+        assert!(error.message.ends_with(&format!("has {count} nodes; its type needs 21")), "{error}");
+    }
+    let error =
+        read_elements(&element(1, 27, &[15], ",\n").replace("13\n", "13, 1\n")).expect_err("too many");
+    assert!(error.message.contains("more than the 27 nodes"), "{error}");
+    let all: Vec<usize> = (0..20).chain(20..26).collect();
+    let points: Vec<Point> = (0..27).map(places).collect();
+    let error = read(vtk(&points, &[(&all, 29)]).as_bytes(), Format::Vtk).expect_err("VTK has all of them");
+    assert_eq!(error.code, "cell-size");
+}
+
+/// A hex of the second order with faces of it, as libMeshb numbers their nodes: corners, edges, faces, inside.
+#[test]
+fn hexes_of_the_second_order_in_medit_files_are_read_as_linear_ones() {
+    let mut file = String::from("MeshVersionFormatted 2\nDimension 3\nVertices\n27\n");
+    for n in 0..27 {
+        file += &format!("{} {} {} 0\n", n % 3, n / 3 % 3, n / 9);
+    }
+    let hex = "HexahedraQ2\n1\n1 3 9 7 19 21 27 25 2 6 8 4 10 12 18 16 20 24 26 22 5 11 15 17 13 23 14 6\n";
+    let quad = "QuadrilateralsQ2\n1\n1 3 9 7 2 6 8 4 5 4\n";
+    let lines = "EdgesP2\n1\n1 3 2 8\n";
+    let order = "HexahedraQ2Ordering\n8\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n";
+    let of = |parts: &[&str]| read((file.clone() + &parts.concat() + "End\n").as_bytes(), Format::Medit);
+    for parts in [&[quad, lines, hex][..], &[hex, quad], &[order, quad, hex], &[hex, order, quad]] {
+        let document = of(parts).expect("a hex");
+        let found = hexes(&document);
+        assert_eq!((document.linearized, document.dropped_faces, found.positions.len()), (1, 0, 8));
+        assert_eq!(found.hexes, [[0, 1, 3, 2, 4, 5, 7, 6].map(NodeId)]);
+        assert_eq!(found.positions[7], Point::splat(2.0));
+        assert_eq!(document.tags.of(0).and_then(|set| set.number), Some(6));
+        assert_eq!(found.groups.tags().sets[0].number, Some(4));
+    }
+    let refused = |parts: &[&str]| of(parts).expect_err("not read");
+    assert_eq!(refused(&[quad]).code, "unsupported-cell");
+    assert_eq!(refused(&[hex, &order.replace("0 0 2\n", "0 0 1\n")]).code, "unsupported-feature");
+    assert_eq!(refused(&[hex, "HexahedraQ2Ordering\n1\n0 0 0\n"]).code, "unsupported-feature");
+    assert_eq!(refused(&[hex, "QuadrilateralsQ2Ordering\n2\n0 0\n2 1\n"]).code, "unsupported-feature");
+    assert_eq!(refused(&["HexahedraQ2\n99\n1 2 3\n"]).code, "truncated");
+    assert_eq!(refused(&[&hex.replace("26 22", "26 28")]).code, "node-out-of-range");
+}
+
 #[test]
 fn surfaces_of_the_second_order_are_refused() {
     let points = hex20(0.0);
