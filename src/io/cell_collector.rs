@@ -37,6 +37,8 @@ pub(super) struct CellCollector {
     refused_face: Option<ReadError>,
     /// Faces of hexes that the file names and does not have.
     dropped_faces: usize,
+    /// Cells that the file hides.
+    hidden: usize,
     /// Names that hexes have no place for.
     dropped_groups: Vec<String>,
 }
@@ -70,6 +72,7 @@ impl CellCollector {
             linearized: 0,
             refused_face: None,
             dropped_faces: 0,
+            hidden: 0,
             dropped_groups: Vec::new(),
         }
     }
@@ -112,6 +115,11 @@ impl CellCollector {
     /// Counts faces that the file names and does not have.
     pub fn drop_faces(&mut self, count: usize) {
         self.dropped_faces += count;
+    }
+
+    /// Counts cells that the file hides. They come as skipped ones.
+    pub fn hide(&mut self, count: usize) {
+        self.hidden += count;
     }
 
     /// Names groups that a file of hexes has and that are left out.
@@ -200,7 +208,11 @@ impl CellCollector {
         let hexes = !self.hexes.is_empty();
         let source = if hexes { &self.hex_source } else { &self.face_source };
         if source.is_empty() {
-            let message = "the file holds neither faces nor hexahedra — there is nothing to refine";
+            let message = if self.hidden == 0 {
+                "the file holds neither faces nor hexahedra — there is nothing to refine"
+            } else {
+                "all faces and hexahedra of the file are hidden or of another piece (vtkGhostType) — there is nothing to refine"
+            };
             return Err(refuse(self.format, None, code::NO_CELLS, message));
         }
         let mut cell_tags = attributes.tags.unwrap_or_default();
@@ -210,10 +222,11 @@ impl CellCollector {
         let tags = cell_tags.of_cells(source);
         let level = pick(attributes.level, source, |v| u8::try_from(v).ok());
         let parent = pick(attributes.parent, source, |v| u32::try_from(v).ok().map(FaceId));
+        let hidden = self.hidden;
         if !hexes {
             let Self { offsets, corners, features, .. } = self;
             let mesh = PolygonMesh { positions, offsets, corners, features, ..PolygonMesh::default() };
-            return Ok(Document { tags, level, parent, ..Document::from(mesh) });
+            return Ok(Document { tags, level, parent, hidden, ..Document::from(mesh) });
         }
         let (groups, others) = self.groups(&mut cell_tags)?;
         let dropped_faces = others.len() + self.dropped_faces;
@@ -223,7 +236,7 @@ impl CellCollector {
         let positions = middle.leave_out(positions, &mut hexes);
         let mesh = HexMesh { positions, hexes, groups, ..HexMesh::default() };
         let document = Document::from(mesh);
-        Ok(Document { tags, level, parent, linearized, dropped_faces, dropped_groups, ..document })
+        Ok(Document { tags, level, parent, linearized, hidden, dropped_faces, dropped_groups, ..document })
     }
 
     /// The groups of faces, and the cells that are faces and none of the hexes'.

@@ -59,6 +59,9 @@ pub struct Document {
     pub second_order: Option<SecondOrder>,
     /// Hexes of the second order in a file: their corners were read, their nodes on edges, on faces and inside left out.
     pub linearized: usize,
+    /// Cells in a VTU or legacy VTK file that it hides, or that another piece has too (`vtkGhostType`, `vtkGhostLevels`):
+    /// they were left out.
+    pub hidden: usize,
     /// Faces in a file of hexes that are no faces of these, and were left out.
     pub dropped_faces: usize,
     /// The groups in a file of hexes that were left out, all or in part: of such faces, of edges and of nodes. One without
@@ -83,6 +86,7 @@ impl Document {
             parent: Vec::new(),
             second_order: None,
             linearized: 0,
+            hidden: 0,
             dropped_faces: 0,
             dropped_groups: Vec::new(),
             dropped_arrays: Vec::new(),

@@ -24,6 +24,14 @@ pub(super) const TAG: &str = "Tag";
 /// and from MEDIT files, Gmsh's, VTK's filters'.
 const TAG_ARRAYS: [&str; 5] = [TAG, "gmsh:physical", "medit:ref", "CellEntityIds", "MaterialIds"];
 
+/// Array of bits that say what cells are beside the mesh's own, and those of the cells that are left out: another piece has
+/// the cell too (1), or it is hidden (32).
+const GHOST_TYPE: (&str, i64) = ("vtkGhostType", 1 | 32);
+/// Array of the first versions that says how far within another piece cells are; 0 are the mesh's own.
+const GHOST_LEVELS: &str = "vtkGhostLevels";
+
+/// VTK's type of a cell that is none.
+const EMPTY: i64 = 0;
 /// VTK's type of a quad.
 const QUAD: u8 = 9;
 
@@ -85,14 +93,25 @@ pub(super) fn collect_cells(
 
 /// True if the cell data array `name` is one that is read.
 pub(super) fn is_wanted(name: &str) -> bool {
-    name == LEVEL || name == PARENT || TAG_ARRAYS.contains(&name)
+    name == LEVEL || name == PARENT || TAG_ARRAYS.contains(&name) || hides(name).is_some()
+}
+
+/// Which numbers of the cell data array `name` say that a cell is left out; `None` if it says nothing of that.
+fn hides(name: &str) -> Option<fn(i64) -> bool> {
+    match name {
+        GHOST_LEVELS => Some(|level| level > 0),
+        _ if name == GHOST_TYPE.0 => Some(|bits| bits & GHOST_TYPE.1 != 0),
+        _ => None,
+    }
 }
 
 /// The cell data of a file.
 #[derive(Default)]
 pub(super) struct CellData {
-    /// The arrays that [`is_wanted`].
-    pub wanted: HashMap<String, Column>,
+    /// The arrays that [`is_wanted`] and that say what cells are.
+    wanted: HashMap<String, Column>,
+    /// Is the cell left out? Cells without an entry are not.
+    is_hidden: Vec<bool>,
     /// The names of all arrays, of nodes too, each once, in the file's order.
     names: Vec<String>,
     known: HashSet<String>,
@@ -106,11 +125,37 @@ impl CellData {
         }
     }
 
+    /// Adds the array `name`, which [`is_wanted`], of the cells from `first` on. One that cells before these do not have is
+    /// dropped by its wrong length.
+    pub fn add(&mut self, name: &str, first: usize, column: Column) {
+        if let Some(hides) = hides(name) {
+            if let Some(numbers) = column.into_integers() {
+                self.is_hidden.resize(self.is_hidden.len().max(first + numbers.len()), false);
+                let cells = self.is_hidden[first..].iter_mut();
+                cells.zip(numbers).for_each(|(is_hidden, number)| *is_hidden |= hides(number));
+            }
+            return;
+        }
+        match self.wanted.get_mut(name) {
+            _ if first == 0 => drop(self.wanted.insert(name.to_owned(), column)),
+            None => {}
+            Some(Column::Integers(values)) => values.extend(column.into_integers().unwrap_or_default()),
+            Some(Column::Floats(values)) => values.extend(column.into_floats()),
+        }
+    }
+
+    /// Takes the cells that are left out for cells of no type; how many there are.
+    pub fn hide(&self, types: &mut [i64]) -> usize {
+        let hidden = types.iter_mut().zip(&self.is_hidden).filter(|&(_, &is_hidden)| is_hidden);
+        hidden.map(|(number, _)| *number = EMPTY).count()
+    }
+
     /// The attributes of the cells of the given types, and the names of the arrays that say nothing of them.
     pub fn attributes(self, types: &[i64], named: &Names) -> (CellAttributes, Vec<String>) {
-        let Self { wanted, mut names, .. } = self;
+        let Self { wanted, is_hidden, mut names, .. } = self;
         let (attributes, read) = cell_attributes(wanted, types, named);
-        names.retain(|name| !read.contains(&name.as_str()));
+        let are_hidden_read = !is_hidden.is_empty();
+        names.retain(|name| !(read.contains(&name.as_str()) || are_hidden_read && hides(name).is_some()));
         (attributes, names)
     }
 }

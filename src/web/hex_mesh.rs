@@ -40,6 +40,8 @@ pub struct HexMesh {
 struct Dropped {
     /// Hexes of the second order, of which the corners were read.
     linearized: usize,
+    /// Cells that the file hides.
+    hidden: usize,
     /// Faces that are no faces of the hexes.
     dropped_faces: usize,
     /// Arrays that are not read.
@@ -113,13 +115,20 @@ impl HexMesh {
     /// What the format's reader refuses, unknown formats, files of surfaces, and more hexes than memory holds.
     pub fn read(bytes: &[u8], format: Option<String>) -> Result<Self, Failure> {
         let document = file::read(bytes, format)?;
-        let Document { mesh: AnyMesh::Hexes(mesh), tags, linearized, dropped_faces, dropped_arrays, .. } =
-            document
+        let Document {
+            mesh: AnyMesh::Hexes(mesh),
+            tags,
+            linearized,
+            hidden,
+            dropped_faces,
+            dropped_arrays,
+            ..
+        } = document
         else {
             let message = "the file holds a surface; give a mesh of hexahedra, or make a grid around it";
             return Err(Failure::input("hexes-expected", &message));
         };
-        let dropped = Dropped { linearized, dropped_faces, dropped_arrays };
+        let dropped = Dropped { linearized, hidden, dropped_faces, dropped_arrays };
         Ok(Self { dropped, ..Self::new(Mesh { tags, ..mesh })? })
     }
 

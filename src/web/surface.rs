@@ -20,7 +20,16 @@ use crate::mesh::{Edges, MeshHash, NodeId, PolygonMesh, polygon_hash};
 #[wasm_bindgen]
 pub struct Surface {
     pub(super) mesh: Arc<PolygonMesh>,
-    /// Arrays in the file that are not read.
+    dropped: Dropped,
+}
+
+/// What was in the file and is not in the mesh.
+#[derive(Clone, Default, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Dropped {
+    /// Cells that the file hides.
+    hidden: usize,
+    /// Arrays that are not read.
     dropped_arrays: Vec<String>,
 }
 
@@ -37,7 +46,8 @@ struct Info {
     polygons: usize,
     #[serde(flatten)]
     extent: Extent,
-    dropped_arrays: Vec<String>,
+    #[serde(flatten)]
+    dropped: Dropped,
     losses: BTreeMap<&'static str, Vec<String>>,
     /// One line for each kind of defect.
     defects: Vec<String>,
@@ -52,11 +62,12 @@ impl Surface {
     pub fn read(bytes: &[u8], format: Option<String>) -> Result<Self, Failure> {
         let mut document = file::read(bytes, format)?;
         let dropped_arrays = std::mem::take(&mut document.dropped_arrays);
+        let dropped = Dropped { hidden: document.hidden, dropped_arrays };
         let mesh = document.into_surface().ok_or_else(|| {
             let message = "the file holds hexahedra; give a surface of polygons";
             Failure::input("surface-expected", &message)
         })?;
-        Ok(Self { mesh: Arc::new(mesh), dropped_arrays })
+        Ok(Self { mesh: Arc::new(mesh), dropped })
     }
 
     /// A surface of faces given as arrays: x, y, z of each node; where each face's corners start, and the end of
@@ -79,7 +90,7 @@ impl Surface {
         check_offsets(&offsets, corners.len())?;
         let corners = corners.iter().copied().map(NodeId).collect();
         let mesh = PolygonMesh { positions, offsets, corners, ..PolygonMesh::default() };
-        Ok(Self { mesh: Arc::new(mesh), dropped_arrays: Vec::new() })
+        Ok(Self { mesh: Arc::new(mesh), dropped: Dropped::default() })
     }
 
     /// What is known of the surface: an object with the fields of `SurfaceInfo` in `www/lib/results.ts`.
@@ -107,7 +118,7 @@ impl Surface {
 }
 
 impl Info {
-    fn of(Surface { mesh, dropped_arrays }: &Surface) -> Self {
+    fn of(Surface { mesh, dropped }: &Surface) -> Self {
         let mesh: &PolygonMesh = mesh;
         let edges = Edges::of_polygons(mesh);
         let faces_of = |wanted: fn(usize) -> bool| mesh.faces().filter(|f| wanted(f.len())).count();
@@ -118,7 +129,7 @@ impl Info {
             quads: faces_of(|n| n == 4),
             polygons: faces_of(|n| n > 4),
             extent: Extent::of(&mesh.positions, &edges.ends),
-            dropped_arrays: dropped_arrays.clone(),
+            dropped: dropped.clone(),
             losses: file::losses(&mesh.tags, None),
             defects: summary(&check_polygons(mesh)).iter().map(ToString::to_string).collect(),
         }

@@ -81,6 +81,7 @@ describe.each([1, 2, 4])('hexes on %i threads', (threads) => {
       turned: 0,
       groupedFaces: 3,
       linearized: 0,
+      hidden: 0,
       droppedFaces: 0,
       groups: [
         { names: [], number: 4 },

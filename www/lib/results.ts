@@ -22,6 +22,8 @@ export interface SurfaceInfo {
   meanEdge: number;
   /** A fingerprint of nodes and faces: of quads alone the same as that of a `QuadMesh`. */
   hash: string;
+  /** Cells of a VTU or legacy VTK file that it hides, or has of another piece, and that were left out. */
+  hidden: number;
   /** Arrays of a VTU or legacy VTK file that are no tags, and were left out. */
   droppedArrays: string[];
   /** What files cannot say of the surface's groups, by format; a format that keeps all of it is left out. */
@@ -94,6 +96,8 @@ export interface HexInfo {
   groupedFaces: number;
   /** Hexes of the second order in the file, of which the corners were read: the nodes on edges, on faces and inside were left out. */
   linearized: number;
+  /** Cells of a VTU or legacy VTK file that it hides, or has of another piece, and that were left out. */
+  hidden: number;
   /** Faces in the file that are no faces of the hexes, and were left out. */
   droppedFaces: number;
   /** Arrays of a VTU or legacy VTK file that are no tags, and were left out. */

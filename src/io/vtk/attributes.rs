@@ -8,6 +8,8 @@ use crate::io::scalars::{Column, Scalar};
 /// An array of an attribute.
 pub(super) struct Array {
     pub name: String,
+    /// The line of its name.
+    pub line: Option<u64>,
     /// The numbers, if it has one a point or cell. Others are stepped over.
     pub numbers: Option<Column>,
 }
@@ -29,15 +31,15 @@ pub(super) fn read_attribute(
         b"TENSORS" => read_array(file, count, 9)?,
         b"TENSORS6" => read_array(file, count, 6)?,
         b"TEXTURE_COORDINATES" => {
-            let name = read_name(file)?;
+            let array = read_name(file)?;
             let dimension = file.number("the dimension of the texture")?;
-            read_typed(file, name, count, dimension)?
+            read_typed(file, array, count, dimension)?
         }
         b"COLOR_SCALARS" => {
-            let name = read_name(file)?;
+            let array = read_name(file)?;
             let components = file.number("the number of colours")?;
             read_colours(file, count.saturating_mul(components))?;
-            vec![Array { name, numbers: None }]
+            vec![array]
         }
         b"LOOKUP_TABLE" => {
             read_name(file)?;
@@ -51,7 +53,7 @@ pub(super) fn read_attribute(
 }
 
 fn read_scalars(file: &mut LegacyFile<'_>, count: usize) -> Result<Arrays, ReadError> {
-    let name = read_name(file)?;
+    let array = read_name(file)?;
     let kind = file.tokens.expect("a type of numbers")?;
     let components = match file.tokens.rest_of_line() {
         [] => 1,
@@ -64,45 +66,45 @@ fn read_scalars(file: &mut LegacyFile<'_>, count: usize) -> Result<Arrays, ReadE
         file.tokens.expect("LOOKUP_TABLE")?;
         file.tokens.rest_of_line();
     }
-    read_data(file, name, kind, count, components)
+    read_data(file, array, kind, count, components)
 }
 
 fn read_field(file: &mut LegacyFile<'_>) -> Result<Arrays, ReadError> {
     read_name(file)?;
     let mut arrays = Vec::new();
     for _ in 0..file.number("the number of arrays")? {
-        let mut name = read_name(file)?;
-        while name == "METADATA" {
+        let mut array = read_name(file)?;
+        while array.name == "METADATA" {
             file.skip_metadata();
-            name = read_name(file)?;
+            array = read_name(file)?;
         }
         let components = file.number("the number of components")?;
         let tuples = file.number("the number of tuples")?;
-        arrays.extend(read_typed(file, name, tuples, components)?);
+        arrays.extend(read_typed(file, array, tuples, components)?);
     }
     Ok(arrays)
 }
 
 fn read_array(file: &mut LegacyFile<'_>, count: usize, components: usize) -> Result<Arrays, ReadError> {
-    let name = read_name(file)?;
-    read_typed(file, name, count, components)
+    let array = read_name(file)?;
+    read_typed(file, array, count, components)
 }
 
 /// The type and the data of an array.
 fn read_typed(
     file: &mut LegacyFile<'_>,
-    name: String,
+    array: Array,
     count: usize,
     components: usize,
 ) -> Result<Arrays, ReadError> {
     let kind = file.tokens.expect("a type of numbers")?;
     file.start_data();
-    read_data(file, name, kind, count, components)
+    read_data(file, array, kind, count, components)
 }
 
 fn read_data(
     file: &mut LegacyFile<'_>,
-    name: String,
+    array: Array,
     kind: &[u8],
     count: usize,
     components: usize,
@@ -110,10 +112,10 @@ fn read_data(
     let size = count.saturating_mul(components);
     let Some(scalar) = Scalar::from_legacy_name(kind) else {
         file.skip_column(kind, size)?;
-        return Ok(vec![Array { name, numbers: None }]);
+        return Ok(vec![array]);
     };
     let column = file.column(size, scalar, "an attribute")?;
-    Ok(vec![Array { name, numbers: (components == 1).then_some(column) }])
+    Ok(vec![Array { numbers: (components == 1).then_some(column), ..array }])
 }
 
 /// Colours: bytes in a binary file, numbers from 0 to 1 in words.
@@ -124,9 +126,10 @@ fn read_colours(file: &mut LegacyFile<'_>, size: usize) -> Result<(), ReadError>
     Ok(())
 }
 
-/// A name, in which VTK writes what would break a word as `%` and two hexadecimal digits.
-fn read_name(file: &mut LegacyFile<'_>) -> Result<String, ReadError> {
+/// An array by its name alone, in which VTK writes what would break a word as `%` and two hexadecimal digits.
+fn read_name(file: &mut LegacyFile<'_>) -> Result<Array, ReadError> {
     let word = file.tokens.expect("a name")?;
+    let line = file.tokens.line();
     let mut name = Vec::with_capacity(word.len());
     let mut at = 0;
     while at < word.len() {
@@ -143,5 +146,5 @@ fn read_name(file: &mut LegacyFile<'_>) -> Result<String, ReadError> {
             }
         }
     }
-    Ok(String::from_utf8_lossy(&name).into_owned())
+    Ok(Array { name: String::from_utf8_lossy(&name).into_owned(), line, numbers: None })
 }

@@ -3,10 +3,10 @@
 use super::attributes::{Array, read_attribute};
 use super::cells::{CellList, read_cells};
 use super::file::LegacyFile;
-use super::structured::{Kind, Structured};
+use super::structured::{Kind, Structured, cell_types, push_cells};
 use crate::geometry::Point;
 use crate::io::cell_collector::CellCollector;
-use crate::io::refusal::{code, excerpt, refuse_not_finite};
+use crate::io::refusal::{code, excerpt, refuse, refuse_not_finite};
 use crate::io::scalars::Scalar;
 use crate::io::tag_numbers::Names;
 use crate::io::vtk_cells::{CellData, collect_cells, is_wanted};
@@ -32,10 +32,10 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
                     let message = format!("{} is no section of the format", excerpt(word));
                     return Err(file.tokens.refuse(code::SYNTAX, message));
                 };
-                for Array { name, numbers } in arrays {
-                    grid.cell_data.note(&name);
-                    if let Some(numbers) = numbers.filter(|_| of_cells && is_wanted(&name)) {
-                        grid.cell_data.wanted.insert(name, numbers);
+                for array in arrays {
+                    grid.cell_data.note(&array.name);
+                    if of_cells && is_wanted(&array.name) {
+                        grid.arrays.push(array);
                     }
                 }
             }
@@ -57,6 +57,8 @@ struct Grid {
     types: Vec<i64>,
     polygonal: [CellList; 3],
     cell_data: CellData,
+    /// The arrays of cells that are read.
+    arrays: Vec<Array>,
 }
 
 /// VTK types of the cells in `VERTICES`, `LINES` and `POLYGONS`.
@@ -122,7 +124,12 @@ impl Grid {
 
     fn finish(mut self) -> Result<Document, ReadError> {
         if let Some(structured) = self.structured.take() {
-            let (positions, collector, types) = structured.collect(self.positions)?;
+            let points = std::mem::take(&mut self.positions);
+            let (positions, dimensions) = structured.positions(points)?;
+            let mut types = cell_types(dimensions);
+            let mut collector = CellCollector::new(Format::Vtk, positions.len(), 0);
+            self.hide(&mut collector, types.len(), &mut types)?;
+            push_cells(&mut collector, dimensions, &types)?;
             let (attributes, dropped_arrays) = self.cell_data.attributes(&types, &Names::default());
             return Ok(Document { dropped_arrays, ..collector.finish(positions, attributes)? });
         }
@@ -131,9 +138,31 @@ impl Grid {
             self.cells.append(list);
         }
         let mut collector = CellCollector::new(Format::Vtk, self.positions.len(), 0);
-        collect_cells(&mut collector, Format::Vtk, &self.cells.nodes, &self.cells.ends, &self.types)?;
-        let (attributes, dropped_arrays) = self.cell_data.attributes(&self.types, &Names::default());
+        let mut types = std::mem::take(&mut self.types);
+        self.hide(&mut collector, self.cells.ends.len(), &mut types)?;
+        collect_cells(&mut collector, Format::Vtk, &self.cells.nodes, &self.cells.ends, &types)?;
+        let (attributes, dropped_arrays) = self.cell_data.attributes(&types, &Names::default());
         Ok(Document { dropped_arrays, ..collector.finish(self.positions, attributes)? })
+    }
+
+    /// Looks at what the arrays say of `count` cells of the given types, and takes those that are hidden for cells of no type.
+    fn hide(
+        &mut self,
+        collector: &mut CellCollector,
+        count: usize,
+        types: &mut [i64],
+    ) -> Result<(), ReadError> {
+        for Array { name, line, numbers } in std::mem::take(&mut self.arrays) {
+            let Some(numbers) = numbers else { continue };
+            if numbers.len() != count {
+                let (name, found) = (excerpt(name.as_bytes()), numbers.len());
+                let message = format!("the array {name} holds {found} numbers, but there are {count} cells");
+                return Err(refuse(Format::Vtk, line, code::INCONSISTENT, message));
+            }
+            self.cell_data.add(&name, 0, numbers);
+        }
+        collector.hide(self.cell_data.hide(types));
+        Ok(())
     }
 }
 

@@ -78,8 +78,9 @@ impl Structured {
             let (first, last) = (file.tokens.integer("an extent")?, file.tokens.integer("an extent")?);
             let size = last.checked_sub(first).and_then(|steps| usize::try_from(steps).ok()?.checked_add(1));
             *dimension = size.ok_or_else(|| {
-                let message = format!("an extent goes from {first} to {last}; it must not go backwards");
-                file.tokens.refuse(code::BAD_NUMBER, message)
+                let wrong = if last < first { "it must not go backwards" } else { "it is too large" };
+                file.tokens
+                    .refuse(code::BAD_NUMBER, format!("an extent goes from {first} to {last}; {wrong}"))
             })?;
             *start = first;
         }
@@ -87,8 +88,8 @@ impl Structured {
         Ok(())
     }
 
-    /// The nodes, of which `points` stood in a section, the cells between them and VTK's type of each.
-    pub fn collect(self, points: Vec<Point>) -> Result<(Vec<Point>, CellCollector, Vec<i64>), ReadError> {
+    /// The nodes, of which `points` stood in a section, and how many there are along each axis.
+    pub fn positions(self, points: Vec<Point>) -> Result<(Vec<Point>, [usize; 3]), ReadError> {
         let refused = |code, message| refuse(Format::Vtk, None, code, message);
         let Some(dimensions) = self.dimensions else {
             return Err(refused(code::SYNTAX, "the dataset has no DIMENSIONS".to_owned()));
@@ -115,9 +116,7 @@ impl Structured {
                 positions(dimensions, |axis, place| self.coordinates[axis][place])
             }
         };
-        let mut collector = CellCollector::new(Format::Vtk, count, 0);
-        let types = push_cells(&mut collector, dimensions)?;
-        Ok((positions, collector, types))
+        Ok((positions, dimensions))
     }
 
     /// How many nodes there are, if there are cells between them and memory enough for so small a file.
@@ -166,18 +165,29 @@ fn positions([x, y, z]: [usize; 3], coordinate: impl Fn(usize, usize) -> f64) ->
     positions
 }
 
-/// Hands over the cells between the nodes, in VTK's order: x runs first, then y. An axis with one node is none of theirs.
-fn push_cells(collector: &mut CellCollector, dimensions: [usize; 3]) -> Result<Vec<i64>, ReadError> {
+/// VTK's type of each cell between so many nodes along each axis.
+pub(super) fn cell_types(dimensions: [usize; 3]) -> Vec<i64> {
+    let number = if dimensions.contains(&1) { PIXEL } else { VOXEL };
+    vec![number; dimensions.map(|size| (size - 1).max(1)).iter().product()]
+}
+
+/// Hands over the cells between the nodes, of the given types, in VTK's order: x runs first, then y. An axis with one node is
+/// none of theirs.
+pub(super) fn push_cells(
+    collector: &mut CellCollector,
+    dimensions: [usize; 3],
+    types: &[i64],
+) -> Result<(), ReadError> {
     let [x, y, _] = dimensions;
     let steps = [1, x, x * y];
     let axes: Vec<usize> = (0..3).filter(|&axis| dimensions[axis] > 1).collect();
-    let (kind, number) = if axes.len() == 3 { (CellKind::Voxel, VOXEL) } else { (CellKind::Pixel, PIXEL) };
     // Each corner's node after that of the first corner.
     let corners: Vec<usize> = (0..1 << axes.len())
         .map(|corner: usize| (0..axes.len()).map(|k| (corner >> k & 1) * steps[axes[k]]).sum())
         .collect();
     let [cells_x, cells_y, cells_z] = dimensions.map(|size| (size - 1).max(1));
     let mut nodes = vec![0; corners.len()];
+    let mut types = types.iter();
     for k in 0..cells_z {
         for j in 0..cells_y {
             for i in 0..cells_x {
@@ -185,9 +195,14 @@ fn push_cells(collector: &mut CellCollector, dimensions: [usize; 3]) -> Result<V
                 for (node, corner) in nodes.iter_mut().zip(&corners) {
                     *node = (first + corner) as i64;
                 }
+                let kind = match types.next() {
+                    Some(&VOXEL) => CellKind::Voxel,
+                    Some(&PIXEL) => CellKind::Pixel,
+                    _ => CellKind::Skipped,
+                };
                 collector.push(kind, &nodes, None)?;
             }
         }
     }
-    Ok(vec![number; cells_x * cells_y * cells_z])
+    Ok(())
 }

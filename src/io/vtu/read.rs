@@ -6,7 +6,6 @@ use super::xml::{DataArray, Piece, parse};
 use crate::geometry::Point;
 use crate::io::cell_collector::CellCollector;
 use crate::io::refusal::{code, refuse, refuse_not_finite};
-use crate::io::scalars::Column;
 use crate::io::tag_numbers::{Names, names_from_json};
 use crate::io::vtk_cells::{CellData, collect_cells, is_wanted};
 use crate::io::{Document, Format, ReadError};
@@ -27,6 +26,7 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
         named = names_from_json(&json);
     }
     let mut collector = CellCollector::new(Format::Vtu, grid.positions.len(), 0);
+    collector.hide(grid.cell_data.hide(&mut grid.types));
     collect_cells(&mut collector, Format::Vtu, &grid.connectivity, &grid.ends, &grid.types)?;
     let (attributes, dropped_arrays) = grid.cell_data.attributes(&grid.types, &named);
     Ok(Document { dropped_arrays, ..collector.finish(grid.positions, attributes)? })
@@ -74,7 +74,7 @@ impl Grid {
         self.ends.extend(ends.iter().map(|end| end.saturating_add(first_corner)));
         self.types.extend(decoder.integers(find("types")?, a_cell)?);
         for array in piece.cell_data.iter().filter(|array| is_wanted(&array.name) && array.components == 1) {
-            self.add_cell_data(decoder, array, a_cell, first_cell)?;
+            self.cell_data.add(&array.name, first_cell, decoder.decode(array, a_cell)?);
         }
         Ok(())
     }
@@ -98,24 +98,6 @@ impl Grid {
         }
         let points = values.chunks_exact(size);
         self.positions.extend(points.map(|p| Point::new(p[0], p[1], p.get(2).copied().unwrap_or(0.0))));
-        Ok(())
-    }
-
-    /// Adds cell data. An array that an earlier piece did not have is dropped by its wrong length.
-    fn add_cell_data<'a>(
-        &mut self,
-        decoder: &Decoder<'a>,
-        array: &DataArray<'a>,
-        wanted: Option<Wanted>,
-        first_cell: usize,
-    ) -> Result<(), ReadError> {
-        let column = decoder.decode(array, wanted)?;
-        match self.cell_data.wanted.get_mut(&array.name) {
-            None if first_cell == 0 => drop(self.cell_data.wanted.insert(array.name.clone(), column)),
-            None => {}
-            Some(Column::Integers(values)) => values.extend(column.into_integers().unwrap_or_default()),
-            Some(Column::Floats(values)) => values.extend(column.into_floats()),
-        }
         Ok(())
     }
 }

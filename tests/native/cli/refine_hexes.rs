@@ -86,6 +86,24 @@ fn arrays_that_are_left_out_are_told() {
 }
 
 #[test]
+fn cells_that_the_file_hides_are_told() {
+    let mesh = "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 2 2\nCELL_DATA 2\n\
+                SCALARS vtkGhostType unsigned_char\nLOOKUP_TABLE default\n0 32\n";
+    let folder = folder_holding("two.vtk", mesh);
+    let run = hexmill(&folder, &["refine", "two.vtk", "-o", "fine.vtu", "--levels", "1"]);
+    let told = "warning: two.vtk: 1 cell is left out, as hidden or of another piece (vtkGhostType)\n";
+    assert_eq!((run.code, run.stderr.matches(told).count()), (Some(0), 1), "{}", run.stderr);
+    assert!(
+        run.stderr.contains(": 8 hexes") || run.stdout.contains("8 hexes"),
+        "{}{}",
+        run.stdout,
+        run.stderr
+    );
+    let run = hexmill(&folder, &["check", "two.vtk", "--quiet"]);
+    assert!(!run.stderr.contains("vtkGhostType"), "{}", run.stderr);
+}
+
+#[test]
 fn growth_is_refused_if_that_is_wanted() {
     let folder = folder_with_grid();
     let regions = ["--region", "box:1,1,1,2,2,2:level=2", "--region", "box:2,2,1,3,3,2:level=2"];

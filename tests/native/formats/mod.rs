@@ -7,6 +7,7 @@ mod foreign;
 mod glb;
 mod golden;
 mod groups;
+mod hidden;
 mod hostile;
 mod mutations;
 mod round_trip;

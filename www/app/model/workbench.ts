@@ -149,6 +149,8 @@ export class Workbench {
       this.log.add('info', `Read ${name}: ${cells}, ${counted(model.info.nodes, 'node')}.`);
       const linearized = model instanceof HexMesh ? model.info.linearized : 0;
       if (linearized > 0) this.log.add('warning', `${name}: ${counted(linearized, 'hex', 'hexes')} of the second order read as linear: the nodes on edges, on faces and inside are left out`);
+      const hidden = model.info.hidden;
+      if (hidden > 0) this.log.add('warning', `${name}: ${counted(hidden, 'cell is', 'cells are')} left out, as hidden or of another piece (vtkGhostType)`);
       const arrays = model.info.droppedArrays;
       if (arrays.length > 0) this.log.add('warning', `${name}: these arrays are no tags of cells, and are left out: ${arrays.join(', ')}`);
       for (const defect of model.info.defects) this.log.add('warning', `${name}: ${defect}`);

@@ -122,6 +122,12 @@ impl Loaded {
                 )
             ));
         }
+        if self.document.hidden > 0 && !quiet {
+            tell(&format!(
+                "warning: {path}: {} left out, as hidden or of another piece (vtkGhostType)\n",
+                counted(self.document.hidden, "cell is", "cells are")
+            ));
+        }
         if *count > 0 && !quiet {
             tell(&format!(
                 "warning: {path}: {} left out, as no face of these\n",
