@@ -103,16 +103,12 @@ fn coarse_at(stage: &StageResult, tangled: &[HexId]) -> Vec<u32> {
         touching.extend(near.map(|&k| (clusters.root(k).0, from)).min());
     }
     touching.sort_unstable();
-    let mut most: Vec<(u32, usize, u32)> = Vec::new();
-    for of_one in touching.chunk_by(|a, b| a == b) {
-        let (cluster, coarse) = of_one[0];
-        match most.last_mut().filter(|last| last.0 == cluster) {
-            Some(last) if last.1 >= of_one.len() => {}
-            Some(last) => *last = (cluster, of_one.len(), coarse),
-            None => most.push((cluster, of_one.len(), coarse)),
-        }
-    }
-    let mut coarse: Vec<u32> = most.into_iter().map(|(.., coarse)| coarse).collect();
+    // Of those with as many the first.
+    let most = |of_cluster: &[(u32, u32)]| {
+        let of_hexes = of_cluster.chunk_by(|a, b| a == b);
+        of_hexes.rev().max_by_key(|of_one| of_one.len()).map(|of_one| of_one[0].1)
+    };
+    let mut coarse: Vec<u32> = touching.chunk_by(|a, b| a.0 == b.0).filter_map(most).collect();
     coarse.sort_unstable();
     coarse.dedup();
     coarse

@@ -243,17 +243,13 @@ struct Rising<'a> {
 impl Monitor for Rising<'_> {
     fn progress(&self, stage: Stage, fraction: f64) {
         let mut told = self.told.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let most = match told.iter_mut().find(|(known, _)| *known == stage) {
-            Some((_, most)) => {
-                *most = most.max(fraction);
-                *most
-            }
-            None => {
-                told.push((stage, fraction));
-                fraction
-            }
-        };
-        self.inner.progress(stage, most);
+        let place = told.iter().position(|(known, _)| *known == stage).unwrap_or(told.len());
+        if place == told.len() {
+            told.push((stage, fraction));
+        }
+        let most = &mut told[place].1;
+        *most = most.max(fraction);
+        self.inner.progress(stage, *most);
     }
 
     fn cancelled(&self) -> bool {

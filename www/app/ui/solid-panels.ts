@@ -7,7 +7,7 @@ import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { lostOf } from '../model/features.js';
 import type { Lost } from '../model/features.js';
-import type { Vec3 } from '../model/settings.js';
+import type { Settings, Vec3 } from '../model/settings.js';
 import { diagonal } from '../model/shape.js';
 import { count, counted, significant } from '../model/text.js';
 
@@ -47,7 +47,7 @@ function item({ viewport }: Page, { what, id, fate, place, size }: Lost): Templa
 }
 
 /** Nodes beside the corners, if there are any: on the solid, and off it where a hex would be turned inside out. */
-export function secondOrderPanel(page: Page, { report: { secondOrder: made } }: HexedSolid): TemplateResult | typeof nothing {
+export function secondOrderPanel({ viewport }: Page, { report: { secondOrder: made } }: HexedSolid, { solid }: Settings): TemplateResult | typeof nothing {
   if (!made) return nothing;
   const { farthest, nodes, onSolid, place, yielded } = made;
   const yields = `${counted(yielded, 'node')} off the solid for the sake of ${yielded === 1 ? 'its' : 'their'} hexes, at most ${significant(farthest, 3)}`;
@@ -59,7 +59,7 @@ export function secondOrderPanel(page: Page, { report: { secondOrder: made } }: 
     </dl>
     <ul class="checks">${yielded === 0
       ? html`<li class="good">${icon('check')}All on the boundary are on the solid</li>`
-      : html`<li class="bad">${icon('warn')}${place ? html`<button class="text-button" type="button" title="Show the farthest" @click=${() => page.viewport.showPlace(place as Vec3, EDGES_AROUND * page.workbench.settings.value.solid.edgeLength)}>${yields}</button>` : yields}</li>`}</ul>
+      : html`<li class="bad">${icon('warn')}${place ? html`<button class="text-button" type="button" title="Show the farthest" @click=${() => viewport.showPlace(place as Vec3, EDGES_AROUND * solid.edgeLength)}>${yields}</button>` : yields}</li>`}</ul>
   </section>`;
 }
 
