@@ -225,10 +225,10 @@ mod tests {
         let recessed =
             voxels([20, 20, 6], |[x, y, z]| z < 5 || !(8..11).contains(&x) || !(8..11).contains(&y));
         let shallow = moved(recessed, |p| p.with_z(p.z.min(5.0) + 0.4 * (p.z - 5.0).max(0.0)));
-        let options = HexingOptions { edge_length: 1.0, ..HexingOptions::default() };
+        let options = HexingOptions { edge_length: 1.0, max_distance: Some(0.1), ..HexingOptions::default() };
         let Body { best, report } = mesh_body(&solid(&shallow), &options, &Silent).unwrap();
         let distances: Vec<f64> = report.attempts.iter().map(distance).collect();
         let kept = best.unwrap().number;
-        assert!(distances[0] > 0.5 && kept > 0 && distances[kept] < 0.2, "{distances:?} {kept}");
+        assert!(distances[0] > 0.15 && kept > 0 && distances[kept] < 0.1, "{distances:?} {kept}");
     }
 }

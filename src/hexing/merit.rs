@@ -8,7 +8,7 @@
 //! |---|---|
 //! | how far mesh and solid are from each other | edges |
 //! | curves and surfaces that are lost | share of all |
-//! | the mean scaled Jacobian | what it lacks to 1, twice, and to [`FAIR`], ten times |
+//! | the mean scaled Jacobian | what it lacks to 1, four times, and to [`FAIR`], ten times |
 //! | the least scaled Jacobian | what it lacks to [`GOOD`], as a share of that |
 
 use std::cmp::Ordering;
@@ -21,7 +21,7 @@ use super::report::{AttemptReport, FeatureReport};
 pub(super) const GOOD: f64 = 0.35;
 
 /// What a lack of mean scaled Jacobian weighs.
-const MEAN: f64 = 2.0;
+const MEAN: f64 = 4.0;
 
 /// A mean scaled Jacobian that smaller cells must not cost, and what each lack of it weighs.
 const FAIR: f64 = 0.85;

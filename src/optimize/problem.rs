@@ -105,13 +105,28 @@ impl Problem {
         self.around[range].iter().map(|&place| (place as usize / 8, place as usize % 8))
     }
 
+    /// The mean edge of the cells around a movable node, as they were at first.
+    pub(crate) fn edge(&self, node: u32) -> f64 {
+        let (count, total) = self
+            .star(node)
+            .fold((0.0, 0.0), |(count, total), (cell, _)| (count + 1.0, total + self.volume[cell]));
+        libm::cbrt(total / count)
+    }
+
     /// Where a movable node of the mesh is.
     ///
     /// # Panics
     /// If it is no movable node of a cell.
     pub(crate) fn place(&self, node: NodeId) -> Point {
-        let local = self.nodes[..self.movable()].binary_search(&node).expect("a movable node");
-        self.points[local]
+        self.points[self.local(node) as usize]
+    }
+
+    /// The number of a movable node of the mesh.
+    ///
+    /// # Panics
+    /// If it is no movable node of a cell.
+    pub(crate) fn local(&self, node: NodeId) -> u32 {
+        self.nodes[..self.movable()].binary_search(&node).expect("a movable node") as u32
     }
 
     /// Where the corners of a cell are.

@@ -21,6 +21,8 @@ pub(super) enum Hold {
     Drawn,
     /// It is on the solid, and slides there.
     Held,
+    /// It stays where it is.
+    Pinned,
 }
 
 /// The holds of all nodes of a mesh.
@@ -57,6 +59,14 @@ impl<'a> Holds<'a> {
         self.holds[node.index()] == hold
     }
 
+    /// Holds the node in another way, if it is held in this one.
+    pub(super) fn replace(&mut self, node: NodeId, held: Hold, by: Hold) {
+        let hold = &mut self.holds[node.index()];
+        if *hold == held {
+            *hold = by;
+        }
+    }
+
     /// The nodes that are drawn.
     pub(super) fn stuck(&self) -> usize {
         self.holds.iter().filter(|&&hold| hold == Hold::Drawn).count()
@@ -74,6 +84,7 @@ impl Guide for Holds<'_> {
                 let away = foot().map_or(Point::ZERO, |foot| p - foot.point);
                 across(away.normalize_or_zero())
             }
+            Hold::Pinned => Symmetric::default(),
             Hold::Held => match (self.anchors[node.index()], foot()) {
                 (Anchor::Surface(_), Some(foot)) => across(foot.direction),
                 (Anchor::Curve(_), Some(foot)) => Symmetric::outer(foot.direction),

@@ -8,7 +8,9 @@
 //! 3. `unlock`: around nodes that got stuck the others are let go for a while;
 //! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: as long
 //!    as fewer nodes are stuck than before, the last two steps are made again, twice at most;
-//! 5. `soften`: soft curves that cost cells are given up, and the worst cells smoothed once more.
+//! 5. `loosen`: nodes that cannot get to their curve rest on a surface beside it;
+//! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed once more;
+//! 7. `even`: all that is not held is smoothed for the mean.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
 //! off the solid and is reported with its distance.
@@ -16,10 +18,13 @@
 //! **Departure from the paper.** It projects first and then moves each bad node to the best place of a box around it;
 //! that leaves cells inverted. Here cells are positive first, and stay so.
 
+mod even;
 mod holds;
 mod inflate;
+mod loosen;
 mod progress;
 mod pull;
+mod regions;
 mod snap;
 mod soften;
 mod spread;
@@ -34,8 +39,10 @@ use crate::mesh::{HexId, HexMesh, NodeId};
 use crate::optimize::{OptimizeOptions, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
+use even::even;
 use holds::{Hold, Holds};
 use inflate::inflate;
+use loosen::loosen;
 use progress::Part;
 use pull::{Course, pull};
 use soften::soften;
@@ -51,12 +58,14 @@ const FITTING: Stage = Stage("fitting");
 const FLOOR: f64 = 0.2;
 
 /// The share of the work that is done where the pull starts, and where stuck nodes are unlocked and cells smoothed, again as
-/// long as that frees some.
+/// long as that frees some, and where those that stay stuck are let go.
 const PULL: f64 = 0.1;
-const UNLOCK: [f64; 3] = [0.4, 0.6, 0.8];
+const UNLOCK: [f64; 3] = [0.3, 0.5, 0.7];
+const LOOSEN: f64 = 0.9;
 
-/// The share of the work that is done where soft curves are given up.
-const SOFTEN: f64 = 0.95;
+/// The share of the work that is done where soft curves are given up, and where all is evened out.
+const SOFTEN: f64 = 0.9;
+const EVEN: f64 = 0.95;
 
 /// How much of the work a round of these is, and unlocking alone.
 const ROUND: f64 = 0.2;
@@ -127,7 +136,11 @@ pub fn fit(
     let (mut report, holds) =
         fitted(mesh, on, sheets, &OnSolid::new(solid, &reduction), options, &part(0.0, SOFTEN))?;
     if report.inverted.is_empty() {
-        match soften(mesh, on, &holds, solid, &part(SOFTEN, 1.0)) {
+        let mut polish = || {
+            let softened = soften(mesh, on, &holds, solid, &part(SOFTEN, EVEN))?;
+            Ok(softened + even(mesh, on, &holds, solid, &part(EVEN, 1.0))?)
+        };
+        match polish() {
             Ok(sweeps) => report.sweeps += sweeps,
             Err(cancelled) => {
                 mesh.positions = before;
@@ -174,17 +187,19 @@ fn fitted(
         (0..problem.movable() as u32).filter(|&n| holds.is(problem.nodes[n as usize], Hold::Drawn)).collect();
     let cells: Vec<usize> = problem.cells_around(&boundary).into_iter().map(|c| c as usize).collect();
     let mut awake = problem.rings_around(&cells, RINGS);
+    let all = vec![true; problem.movable()];
     let course = Course { stage: FITTING, sweeps: options.sweeps, floor: FLOOR };
-    sweeps += pull(&mut problem, &mut holds, &chains, &mut awake, course, &part(PULL, UNLOCK[0]))?;
+    sweeps += pull(&mut problem, &mut holds, &chains, &all, &mut awake, course, &part(PULL, UNLOCK[0]))?;
     for from in UNLOCK {
         let stuck = holds.stuck();
-        sweeps += unlock(&mut problem, &mut holds, &chains, &part(from, from + UNLOCKING))?;
+        sweeps += unlock(&mut problem, &mut holds, &chains, &[], &part(from, from + UNLOCKING))?;
         holds.weight = 0.0;
         sweeps += smooth(&mut problem, &holds, &options.smoothing, &part(from + UNLOCKING, from + ROUND))?;
         if holds.stuck() == 0 || holds.stuck() >= stuck {
             break;
         }
     }
+    sweeps += loosen(&mut problem, &mut holds, on, &options.smoothing, &part(LOOSEN, 1.0))?;
     monitor.checkpoint(FITTING, 1.0)?;
 
     problem.write_back(&mut mesh.positions);

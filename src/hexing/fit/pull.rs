@@ -47,17 +47,17 @@ pub(super) struct Course {
     pub(super) floor: f64,
 }
 
-/// Draws the nodes that are to be drawn; those `awake` are moved at first, then all that have reason to. Returns the
-/// number of sweeps made.
+/// Draws the nodes that are to be drawn, all of which are `allowed` to move; those `awake` are moved at first, then all of
+/// the allowed that have reason to. Returns the number of sweeps made.
 pub(super) fn pull(
     problem: &mut Problem,
     holds: &mut Holds,
     chains: &[Chain],
+    allowed: &[bool],
     awake: &mut Vec<bool>,
     course: Course,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    let allowed = vec![true; problem.movable()];
     holds.weight = WEIGHT;
     let (mut level, mut fewest, mut in_vain) = (0, usize::MAX, 0);
     for round in 0..course.sweeps {
@@ -70,11 +70,11 @@ pub(super) fn pull(
         let (least, weights) = LEVELS[level];
         let rules = Rules { guide: &*holds, weights, eps: 0.0, floor: Some(course.floor), asleep: ASLEEP };
         keep_positive(problem, awake, monitor, |problem, awake| {
-            sweep(problem, rules, &allowed, awake, monitor)
+            sweep(problem, rules, allowed, awake, monitor)
         })?;
         if round >= FIRST_SNAP {
             let freedom = if round < CURVES_FIRST { 1 } else { 2 };
-            snap(problem, holds, Bearable { least, freedom }, &allowed, awake, monitor)?;
+            snap(problem, holds, Bearable { least, freedom }, allowed, awake, monitor)?;
         }
         if round >= CURVES_FIRST {
             let stuck = holds.stuck();

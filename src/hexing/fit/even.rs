@@ -1,0 +1,29 @@
+//! Raises the mean: cells that are neither poor nor perfect, such as those of transitions between levels, are smoothed
+//! together with the boundary's, whose nodes slide on the solid.
+
+use super::super::correspondence::Correspondence;
+use super::holds::{Hold, Holds};
+use super::target::OnSolid;
+use crate::mesh::{HexMesh, NodeId};
+use crate::optimize::{Problem, even_out};
+use crate::solid::SolidModel;
+use crate::{Cancelled, Monitor};
+
+/// Smooths all that is not held. Returns the number of sweeps.
+pub(super) fn even(
+    mesh: &mut HexMesh,
+    on: &Correspondence,
+    holds: &[Hold],
+    solid: &SolidModel,
+    monitor: &dyn Monitor,
+) -> Result<usize, Cancelled> {
+    // Nodes that are off the solid would drift.
+    let moves = |n: NodeId| holds[n.index()] != Hold::Drawn;
+    let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
+    problem.order_by(4, |n| on.anchors[n.index()].freedom());
+    let target = OnSolid::new(solid, &on.reduction);
+    let guide = Holds::of(&target, &on.anchors, holds.to_vec());
+    let sweeps = even_out(&mut problem, &guide, monitor)?;
+    problem.write_back(&mut mesh.positions);
+    Ok(sweeps)
+}
