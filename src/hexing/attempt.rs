@@ -86,7 +86,7 @@ pub(super) fn attempt(
         distance: distances(&mesh, solid, monitor)?,
     });
     let far = too_far(&mesh, solid, tolerance(options), monitor)?;
-    let failures = misses(site, &cut, &on.reduction, far, &cells);
+    let failures = misses(site, plan.kind, &cut, &on.reduction, far, &cells);
     let Correspondence { faces, edges, reduction, .. } = on;
     Ok((report, Some(Meshed { mesh, faces, edges, reduction, failures })))
 }

@@ -5,7 +5,9 @@
 //! 3. Where the best missed something, or is too far from the solid, cells a level smaller there, as often as the options
 //!    allow, and as long as it helps. Of a core that is not of the solid's kind it is not always known where it differs:
 //!    then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was lost alone.
-//! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
+//! 4. Where the best is still of another kind than the solid, far off it or without half of its features, an octree, and
+//!    3 for that.
+//! 5. Where cells of a grid are bad, grids whose lines stand elsewhere.
 //!
 //! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and none is
 //! begun that would be many times as large as the first.
@@ -13,7 +15,7 @@
 use super::attempt::{Meshed, attempt, off_euler};
 use super::background::{Background, BackgroundError, Failure, Missed, retry};
 use super::ground::{Plan, Site};
-use super::merit::{Bar, GOOD, distance, is_better, is_far, worst};
+use super::merit::{Bar, GOOD, captured, distance, is_better, is_far, worst};
 use super::options::{HexingError, HexingOptions};
 use super::report::{AttemptReport, BodyReport, RefusedAttempt};
 use crate::Monitor;
@@ -22,11 +24,13 @@ use crate::solid::SolidModel;
 /// How the lines of a grid are moved from try to try, as shares of an edge.
 const SHIFTS: [[f64; 3]; 2] = [[0.5; 3], [0.25, 0.5, 0.75]];
 
-/// A least scaled Jacobian with which there is no grid tried instead of a sweep: it captures less.
-const POOR: f64 = 0.2;
-
 /// A sweep that is farther from the solid than so many edges does not show some part of it that a grid may show.
-const ASTRAY: f64 = 0.5;
+const ASTRAY: f64 = 0.4;
+
+/// What is farther from the solid than so many edges, or shows less than this share of its curves and surfaces, is not
+/// what was asked for: then an octree is tried.
+const OTHER: f64 = 0.4;
+const LEAST: f64 = 0.5;
 
 /// The background of another try has at most so many times the hexes of the first.
 const GROWTH: f64 = 4.0;
@@ -34,6 +38,11 @@ const GROWTH: f64 = 4.0;
 /// And at most so many times where all that is too far from the solid has smaller cells: of a curved boundary that may be
 /// nearly everything, and whoever gives an edge length wants cells of about that.
 const FAR_GROWTH: f64 = 1.75;
+
+/// An octree instead of another background has at most so many times the hexes of the first; or so many times, where that
+/// is not of the solid's kind.
+const OCTREE_GROWTH: f64 = 8.0;
+const KIND_GROWTH: f64 = 24.0;
 
 /// So many hexes are never too many for another try.
 const FEW: u64 = 20_000;
@@ -62,35 +71,26 @@ pub(super) fn mesh_body(
     let site = Site::new(solid, options, monitor)?;
     let mut search =
         Search { site: &site, attempts: Vec::new(), refused: Vec::new(), best: None, tangled: None, monitor };
-    let first = Plan::of(site.choice.kind);
+    let first = site.plan(site.choice.kind);
     match search.attempt(first, options.max_hexes) {
         Err(HexingError::NothingLeft { .. }) => return Ok(search.end(&site)),
         // What may be swept, but not be refined as the options want it.
         Err(HexingError::Background(BackgroundError::Refine(_))) if site.may_be_grid() => {
-            search.attempt(Plan::of(Background::Grid), options.max_hexes)?;
+            search.attempt(site.plan(Background::Grid), options.max_hexes)?;
         }
         made => made?,
     }
-    if site.may_be_grid() && !search.is_good(POOR, ASTRAY * options.edge_length) {
-        search.another(Plan::of(Background::Grid), search.limit())?;
+    if site.may_be_grid() && !search.is_good(GOOD, ASTRAY * options.edge_length) {
+        search.another(site.plan(Background::Grid), search.limit())?;
     }
-    for round in 1..=options.max_levels {
-        let Some(plan) = search.finer(round, |_| true) else { break };
-        let before = search.number();
-        // Where too much is too far, what was lost alone.
-        if !search.another(plan, search.limit_of_far())?
-            && let Some(plan) = search.finer(round, |failure| failure.missed == Missed::Lost)
-        {
-            search.another(plan, search.limit())?;
-        }
-        if search.number() == before {
-            break;
-        }
+    search.refine()?;
+    if site.may_be_octree() && search.is_other() {
+        search.octree()?;
     }
-    if site.choice.kind == Background::Grid {
+    if search.is_on(Background::Grid) {
         for shift in SHIFTS {
             if !search.is_good(GOOD, f64::INFINITY) {
-                search.another(Plan { shift, ..Plan::of(Background::Grid) }, search.limit())?;
+                search.another(Plan { shift, ..site.plan(Background::Grid) }, search.limit())?;
             }
         }
     }
@@ -131,6 +131,38 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// Refines where the best attempt missed something, and tries again, as often as that helps.
+    fn refine(&mut self) -> Result<(), HexingError> {
+        for round in 1..=self.site.options.max_levels {
+            let Some(plan) = self.finer(round, |_| true) else { break };
+            let before = self.number();
+            // Where too much is too far, what was lost alone.
+            if !self.another(plan, self.limit_of_far())?
+                && let Some(plan) = self.finer(round, |failure| failure.missed == Missed::Lost)
+            {
+                self.another(plan, self.limit())?;
+            }
+            if self.number() == before {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Tries an octree, with cells as small in details as there can be, and refines it if that is better.
+    fn octree(&mut self) -> Result<(), HexingError> {
+        let finest = self.site.plan(Background::Octree);
+        for details in (0..=finest.details).rev() {
+            if self.another(Plan { details, ..finest.clone() }, self.limit_of_octree())? {
+                break;
+            }
+        }
+        if self.is_on(Background::Octree) {
+            self.refine()?;
+        }
+        Ok(())
+    }
+
     /// How many hexes the background of another attempt may have.
     fn limit(&self) -> u64 {
         self.grown(GROWTH).max(FEW).min(self.site.options.max_hexes)
@@ -142,6 +174,14 @@ impl Search<'_> {
             Some(_) => self.limit(),
             None => self.grown(FAR_GROWTH).min(self.site.options.max_hexes),
         }
+    }
+
+    /// How many an octree may have where there was none.
+    fn limit_of_octree(&self) -> u64 {
+        let is_wrong = self.best_report().is_none_or(|best| off_euler(&best.core) > 0);
+        let growth = if is_wrong { KIND_GROWTH } else { OCTREE_GROWTH };
+        let first = self.attempts.first().map_or(0, |first| first.core.background);
+        ((growth * first as f64) as u64).max(FEW).min(self.site.options.max_hexes)
     }
 
     /// So many times the hexes of the background that was the first of its kind.
@@ -172,10 +212,10 @@ impl Search<'_> {
     fn finer(&self, round: u8, looked_at: impl Fn(&Failure) -> bool) -> Option<Plan> {
         let Best { meshed, plan, number } = self.best.as_ref()?;
         let failures: Vec<Failure> = meshed.failures.iter().filter(|f| looked_at(f)).cloned().collect();
-        let more = retry(&failures, self.site.edge_length(), self.site.finest());
+        let more = retry(&failures, self.site.edge_length(plan.kind), self.site.finest(plan.kind));
         let has_place = !more.regions.is_empty();
         let is_wrong = off_euler(&self.attempts[*number].core) > 0;
-        let details = if is_wrong && !has_place { round } else { plan.details };
+        let details = if is_wrong && !has_place { round.max(plan.details) } else { plan.details };
         if !has_place && details == plan.details {
             return None;
         }
@@ -191,6 +231,20 @@ impl Search<'_> {
     /// The place of the best attempt.
     fn number(&self) -> Option<usize> {
         self.best.as_ref().map(|best| best.number)
+    }
+
+    /// Is the best attempt of this kind?
+    fn is_on(&self, kind: Background) -> bool {
+        self.best_report().is_some_and(|best| best.background == kind)
+    }
+
+    /// Is what came of it so far not what was asked for: of another kind, or far off, or without many of the features?
+    fn is_other(&self) -> bool {
+        self.best_report().is_none_or(|best| {
+            off_euler(&best.core) > 0
+                || distance(best) > OTHER * self.site.options.edge_length
+                || captured(best.features.as_ref()) < LEAST
+        })
     }
 
     /// Is there nothing that another try could mend, where the worst cell may be so bad, and the mesh so far off?

@@ -39,13 +39,6 @@ pub(super) struct Plan {
     pub(super) details: u8,
 }
 
-impl Plan {
-    /// A background of this kind, as it is.
-    pub(super) fn of(kind: Background) -> Self {
-        Self { kind, shift: [0.0; 3], regions: Vec::new(), in_blocks: false, details: 0 }
-    }
-}
-
 impl<'a> Site<'a> {
     /// Finds out what suits the body, or whether what the options want can be made.
     pub(super) fn new(
@@ -72,19 +65,25 @@ impl<'a> Site<'a> {
         self.options.background == Background::Auto && self.choice.kind == Background::Swept
     }
 
-    /// How long the edges of cells of level 0 are.
-    pub(super) fn edge_length(&self) -> f64 {
-        edge_length_of(self.choice.kind, self.options)
+    /// Was it a choice not to take an octree?
+    pub(super) fn may_be_octree(&self) -> bool {
+        self.options.background == Background::Auto && self.choice.kind != Background::Octree
     }
 
-    /// The level of cells at the boundary that nothing wants smaller.
-    pub(super) fn boundary_level(&self) -> u8 {
-        u8::from(self.choice.kind == Background::Octree)
+    /// A background of this kind, as it is: in an octree details have smaller cells from the beginning.
+    pub(super) fn plan(&self, kind: Background) -> Plan {
+        let details = if kind == Background::Octree { self.options.max_levels } else { 0 };
+        Plan { kind, shift: [0.0; 3], regions: Vec::new(), in_blocks: false, details }
+    }
+
+    /// How long the edges of cells of level 0 are.
+    pub(super) fn edge_length(&self, kind: Background) -> f64 {
+        edge_length_of(kind, self.options)
     }
 
     /// The finest level that retries may ask for.
-    pub(super) fn finest(&self) -> u8 {
-        self.boundary_level() + self.options.max_levels
+    pub(super) fn finest(&self, kind: Background) -> u8 {
+        boundary_level(kind) + self.options.max_levels
     }
 
     /// The background of an attempt.
@@ -95,15 +94,14 @@ impl<'a> Site<'a> {
         monitor: &dyn Monitor,
     ) -> Result<OctreeMesh, BackgroundError> {
         let &Self { solid, options, axes, .. } = self;
-        let edge_length = self.edge_length();
+        let edge_length = self.edge_length(plan.kind);
         let aligned = AlignedGrid { edge_length, axes, shift: plan.shift, max_hexes };
         let regions = [options.regions.as_slice(), &plan.regions].concat();
-        let details = if plan.kind == Background::Octree { options.max_levels } else { plan.details };
         let wanted = Wanted {
-            boundary_level: self.boundary_level(),
+            boundary_level: boundary_level(plan.kind),
             curvature: options.curvature,
-            details: details > 0,
-            levels: if options.curvature.is_some() { options.max_levels } else { details },
+            details: plan.details > 0,
+            levels: if options.curvature.is_some() { options.max_levels } else { plan.details },
             regions: &regions,
             in_blocks: plan.in_blocks,
         };
@@ -121,7 +119,12 @@ fn edge_length_of(kind: Background, options: &HexingOptions) -> f64 {
     if kind == Background::Octree { 2.0 * options.edge_length } else { options.edge_length }
 }
 
-/// The longest edges that cells of level 0 may have.
+/// The level of cells at the boundary that nothing wants smaller.
+fn boundary_level(kind: Background) -> u8 {
+    u8::from(kind == Background::Octree)
+}
+
+/// The longest edges that cells of level 0 of the first attempt may have.
 pub(super) fn coarsest(options: &HexingOptions) -> f64 {
     let may_be_octree = options.background == Background::Auto && options.curvature.is_some();
     edge_length_of(if may_be_octree { Background::Octree } else { options.background }, options)

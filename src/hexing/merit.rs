@@ -58,6 +58,15 @@ fn lost(features: Option<&FeatureReport>) -> f64 {
     })
 }
 
+/// The share of the curves and surfaces that have edges and faces of their own; none where nobody looked.
+pub(super) fn captured(features: Option<&FeatureReport>) -> f64 {
+    features.map_or(0.0, |features| {
+        let [curves, surfaces] = [features.curves, features.surfaces];
+        let found = curves.found + surfaces.found;
+        (curves.captured + surfaces.captured) as f64 / found.max(1) as f64
+    })
+}
+
 /// Are mesh and solid farther from each other than allowed?
 pub(super) fn is_far(report: &AttemptReport, options: &HexingOptions) -> bool {
     options.max_distance.is_some_and(|limit| distance(report) > limit)
@@ -155,6 +164,13 @@ mod tests {
         let allowed = HexingOptions { max_distance: Some(0.1), ..options() };
         let (near, far) = (attempt(2, 0, 0.09, 0.2, 0.8), attempt(2, 0, 0.11, 0.6, 0.95));
         assert!(is_better(&near, &far, &allowed) && is_better(&far, &near, &options()));
+    }
+
+    #[test]
+    fn what_is_captured_is_a_share_of_curves_and_surfaces() {
+        let share = |lost| captured(attempt(2, lost, 0.0, 0.0, 0.0).features.as_ref());
+        assert_eq!([share(0), share(40)], [1.0, 0.6]);
+        assert_eq!(captured(None), 0.0);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What an attempt missed, with the place: where another one is to have smaller cells.
 
-use super::background::{Failure, OctreeMesh};
+use super::background::{Background, Failure, OctreeMesh};
 use super::core::Core;
 use super::correspondence::{CurveFate, LostCurve, Reason, Reduction};
 use super::ground::Site;
@@ -50,16 +50,17 @@ impl FineCells {
     }
 }
 
-/// All that an attempt missed and smaller cells may show.
+/// All that an attempt on a kind of background missed and smaller cells may show.
 pub(super) fn misses(
     site: &Site<'_>,
+    kind: Background,
     core: &Core,
     reduction: &Reduction,
     far: Vec<Point>,
     cells: &FineCells,
 ) -> Vec<Failure> {
-    let (solid, edge_length) = (site.solid, site.edge_length());
-    let finest = edge_length / f64::from(1u32 << site.finest());
+    let solid = site.solid;
+    let finest = site.edge_length(kind) / f64::from(1u32 << site.finest(kind));
     let mut failures = Vec::new();
     let is_missed = |lost: &LostCurve| lost.fate == CurveFate::Suppressed && lost.reason != Reason::Costly;
     for lost in reduction.lost_curves.iter().filter(|lost| is_missed(lost)) {

@@ -11,7 +11,7 @@ use crate::solid::SolidModel;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Background {
-    /// The one that is likely to capture the solid best: see [`choose`].
+    /// The one that is likely to capture the solid best: see [`choose`]. Another one if that does not show the solid.
     #[default]
     Auto,
     /// A quad mesh of the principal face, swept along the principal direction (section 4.2).

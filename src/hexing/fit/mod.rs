@@ -10,7 +10,8 @@
 //!    as fewer nodes are stuck than before, the last two steps are made again, twice at most;
 //! 5. `loosen`: nodes that cannot get to their curve rest on a surface beside it;
 //! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed once more;
-//! 7. `even`: all that is not held is smoothed for the mean.
+//! 7. `even`: all that is not held is smoothed for the mean;
+//! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
 //! off the solid and is reported with its distance.
@@ -18,10 +19,12 @@
 //! **Departure from the paper.** It projects first and then moves each bad node to the best place of a box around it;
 //! that leaves cells inverted. Here cells are positive first, and stay so.
 
+mod apart;
 mod even;
 mod holds;
 mod inflate;
 mod loosen;
+mod near;
 mod progress;
 mod pull;
 mod regions;
@@ -43,6 +46,7 @@ use even::even;
 use holds::{Hold, Holds};
 use inflate::inflate;
 use loosen::loosen;
+use near::near;
 use progress::Part;
 use pull::{Course, pull};
 use soften::soften;
@@ -66,6 +70,7 @@ const LOOSEN: f64 = 0.9;
 /// The share of the work that is done where soft curves are given up, and where all is evened out.
 const SOFTEN: f64 = 0.9;
 const EVEN: f64 = 0.95;
+const NEAR: f64 = 0.98;
 
 /// How much of the work a round of these is, and unlocking alone.
 const ROUND: f64 = 0.2;
@@ -138,7 +143,8 @@ pub fn fit(
     if report.inverted.is_empty() {
         let mut polish = || {
             let softened = soften(mesh, on, &holds, solid, &part(SOFTEN, EVEN))?;
-            Ok(softened + even(mesh, on, &holds, solid, &part(EVEN, 1.0))?)
+            let evened = even(mesh, on, &holds, solid, &part(EVEN, NEAR))?;
+            Ok(softened + evened + near(mesh, on, &holds, solid, &part(NEAR, 1.0))?)
         };
         match polish() {
             Ok(sweeps) => report.sweeps += sweeps,

@@ -1,6 +1,6 @@
 //! Random parts: whatever comes in, the mesh is valid.
 
-use hexmill::hexing::{HexedSolid, HexingOptions, hex_solid};
+use hexmill::hexing::{Background, HexedSolid, HexingOptions, hex_solid};
 use hexmill::mesh::quality::{Certainty, is_positive, scaled_jacobian};
 use hexmill::mesh::topology::{HexTopology, hex_report};
 use hexmill::mesh::{PolygonMesh, check_hexes};
@@ -36,4 +36,16 @@ fn random_parts_at_a_coarse_edge_length() {
         let part = random_part(seed);
         assert_sound(&hexed(&part, 0.125), &format!("part {seed}"));
     }
+}
+
+/// What is thinner than cells is lost in any grid of them, and the mesh is of another kind.
+#[test]
+fn a_part_whose_kind_no_grid_shows_is_cut_out_of_an_octree() {
+    let hexed = hexed(&random_part(95), 1.0 / 12.0);
+    let (body, result) = (&hexed.report.bodies[0], hexed.report.result());
+    let tried = |kind: Background| body.attempts.iter().filter(move |attempt| attempt.background == kind);
+    assert!(tried(Background::Grid).all(|attempt| attempt.core.euler != attempt.core.solid_euler));
+    assert_eq!(body.attempts[body.kept.unwrap()].background, Background::Octree);
+    assert_eq!(result.euler, result.solid_euler);
+    assert_sound(&hexed, "part 95");
 }

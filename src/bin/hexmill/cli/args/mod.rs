@@ -193,7 +193,7 @@ pub(crate) struct HexArgs {
 /// What a mesh of a solid is cut out of.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(crate) enum BackgroundArg {
-    /// What is likely to capture the solid best
+    /// What is likely to capture the solid best, another one if that does not show it
     Auto,
     /// A quad mesh of the principal face, swept along the principal direction
     Swept,

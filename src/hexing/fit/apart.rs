@@ -1,0 +1,234 @@
+//! How far the boundary of a mesh and a solid are from each other, quad by quad and around each node.
+//!
+//! Both are sampled: the quads at their nodes and the middles of their halves, the solid at its vertices, the middles of
+//! its triangles and along the edges where it bends. Each of these belongs to the quad that is nearest to it.
+
+use std::collections::HashSet;
+
+use crate::geometry::{NearestTriangle, Point, closest_on_triangle};
+use crate::mesh::{HexMesh, NodeId};
+use crate::optimize::Problem;
+use crate::solid::{SolidModel, SurfaceId};
+use crate::{Cancelled, Monitor, parallel};
+
+/// Along edges of the solid samples are so many edges of the mesh from each other.
+const STEP: f64 = 0.5;
+
+/// Of samples that are in one cube of so many edges the first counts.
+const DENSE: f64 = 0.15;
+
+/// Edges of the solid are straight on where the cosine between the normals at their sides is above this: 1 degree.
+const STRAIGHT: f64 = 0.9998;
+
+/// How many samples of the solid count at a quad.
+const SAMPLES: usize = 12;
+
+/// Samples between two questions whether to stop.
+const BATCH: usize = 1 << 12;
+
+/// All of a boundary, and how far each quad is from the solid.
+pub(super) struct Survey {
+    /// The samples of the solid at each quad.
+    of_solid: Vec<Vec<Point>>,
+    /// The greatest distance at each quad, either way.
+    pub(super) distances: Vec<f64>,
+}
+
+impl Survey {
+    /// Looks at all faces of the mesh and at these samples of the solid.
+    pub(super) fn new(
+        mesh: &HexMesh,
+        faces: &[([NodeId; 4], SurfaceId)],
+        solid: &SolidModel,
+        points: &[Point],
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let quads = quads(mesh, faces);
+        let mut distances: Vec<f64> = Vec::with_capacity(quads.len());
+        for batch in quads.chunks(BATCH) {
+            monitor.proceed()?;
+            parallel::extend(&mut distances, batch.len(), |k| {
+                let apart = |p: Point| solid.nearest(p).distance;
+                batch[k].into_iter().chain(middles(&batch[k])).map(apart).fold(0.0, f64::max)
+            });
+        }
+        let nearest = NearestTriangle::within(quads.iter().flat_map(halves), monitor)?;
+        let mut of_quads = vec![Vec::new(); quads.len()];
+        for batch in points.chunks(BATCH) {
+            monitor.proceed()?;
+            let found = parallel::collect(batch.len(), |k| nearest.nearest(batch[k]));
+            for (&p, found) in batch.iter().zip(found) {
+                if let Some(found) = found {
+                    of_quads[found.facet / 2].push((found.point.distance(p), p));
+                }
+            }
+        }
+        let mut of_solid = Vec::with_capacity(quads.len());
+        for (distance, samples) in distances.iter_mut().zip(of_quads) {
+            let samples = farthest(samples);
+            *distance = samples.first().map_or(*distance, |first| distance.max(first.0));
+            of_solid.push(samples.into_iter().map(|(_, p)| p).collect());
+        }
+        Ok(Self { of_solid, distances })
+    }
+}
+
+/// Of the samples at a quad, each behind its distance, those that count: the farthest first.
+fn farthest(mut samples: Vec<(f64, Point)>) -> Vec<(f64, Point)> {
+    // Stable: of those that are equally far the first.
+    samples.sort_by(|a, b| b.0.total_cmp(&a.0));
+    samples.truncate(SAMPLES);
+    samples
+}
+
+/// Samples of a solid around a mesh: its vertices, the middles of its triangles, and points of edges where it bends. Where
+/// they are dense one stands for those around.
+pub(super) fn samples(
+    mesh: &HexMesh,
+    faces: &[([NodeId; 4], SurfaceId)],
+    solid: &SolidModel,
+    monitor: &dyn Monitor,
+) -> Result<Vec<Point>, Cancelled> {
+    let edge = mean_edge(&quads(mesh, faces));
+    let origin = solid.bounds().min;
+    let mut taken = HashSet::new();
+    let mut samples = Vec::new();
+    let mut add = |p: Point| {
+        let place = ((p - origin) / (DENSE * edge)).to_array().map(|x| x as i64);
+        if taken.insert(place) {
+            samples.push(p);
+        }
+    };
+    for batch in solid.points().chunks(BATCH) {
+        monitor.proceed()?;
+        batch.iter().copied().for_each(&mut add);
+    }
+    for (t, normal) in solid.normals().iter().enumerate() {
+        if t % BATCH == 0 {
+            monitor.proceed()?;
+        }
+        let corners = solid.corners_of(t);
+        for side in 0..3 {
+            let other = solid.across(t, side) as usize;
+            if t < other && normal.dot(solid.normals()[other]) < STRAIGHT {
+                let [from, to] = [corners[side], corners[(side + 1) % 3]];
+                let steps = (from.distance(to) / (STEP * edge)).ceil() as u32;
+                (1..steps).for_each(|k| add(from.lerp(to, f64::from(k) / f64::from(steps))));
+            }
+        }
+        add(corners.into_iter().sum::<Point>() / 3.0);
+    }
+    Ok(samples)
+}
+
+/// Where the corners of faces are.
+fn quads(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Vec<[Point; 4]> {
+    faces.iter().map(|(quad, _)| quad.map(|n| mesh.positions[n.index()])).collect()
+}
+
+/// The mean length of the sides of quads.
+fn mean_edge(quads: &[[Point; 4]]) -> f64 {
+    let around = |quad: &[Point; 4]| (0..4).map(|k| quad[k].distance(quad[(k + 1) % 4])).sum::<f64>();
+    quads.iter().map(around).sum::<f64>() / (4 * quads.len()) as f64
+}
+
+/// A quad as two triangles.
+fn halves(&[a, b, c, d]: &[Point; 4]) -> [[Point; 3]; 2] {
+    [[a, b, c], [a, c, d]]
+}
+
+fn middles(quad: &[Point; 4]) -> [Point; 2] {
+    halves(quad).map(|half| half.into_iter().sum::<Point>() / 3.0)
+}
+
+/// How far a mesh whose nodes move, and a solid are from each other around these.
+pub(super) struct Apart<'a> {
+    solid: &'a SolidModel,
+    /// The boundary quads around movable nodes, by nodes of the problem.
+    quads: Vec<[u32; 4]>,
+    /// The samples of the solid at each of them.
+    samples: Vec<Vec<Point>>,
+    /// How far each of them was from the solid at first.
+    distances: Vec<f64>,
+    /// The quads around each movable node.
+    around: Vec<Vec<u32>>,
+}
+
+impl<'a> Apart<'a> {
+    pub(super) fn new(
+        problem: &Problem,
+        faces: &[([NodeId; 4], SurfaceId)],
+        survey: Survey,
+        solid: &'a SolidModel,
+    ) -> Self {
+        let count = problem.nodes.iter().map(|n| n.index() + 1).max().unwrap_or(0);
+        let mut local = vec![None; count];
+        (0u32..).zip(&problem.nodes).for_each(|(k, n)| local[n.index()] = Some(k));
+        let mut around = vec![Vec::new(); problem.movable()];
+        let (mut quads, mut samples, mut distances) = (Vec::new(), Vec::new(), Vec::new());
+        for ((quad, _), (of_solid, distance)) in
+            faces.iter().zip(survey.of_solid.into_iter().zip(survey.distances))
+        {
+            let [Some(a), Some(b), Some(c), Some(d)] = quad.map(|n| local.get(n.index()).copied().flatten())
+            else {
+                continue;
+            };
+            let movable = [a, b, c, d].into_iter().filter(|&n| (n as usize) < problem.movable());
+            movable.for_each(|n| around[n as usize].push(quads.len() as u32));
+            quads.push([a, b, c, d]);
+            samples.push(of_solid);
+            distances.push(distance);
+        }
+        Self { solid, quads, samples, distances, around }
+    }
+
+    /// The greatest distance around a node at first.
+    pub(super) fn farthest(&self, node: u32) -> f64 {
+        self.around[node as usize].iter().map(|&q| self.distances[q as usize]).fold(0.0, f64::max)
+    }
+
+    /// The samples of the solid that are farthest from the quads around a node, at most so many.
+    pub(super) fn farthest_samples(&self, problem: &Problem, node: u32, count: usize) -> Vec<Point> {
+        let at = problem.points[node as usize];
+        let distance = |p: Point| self.distance_squared(problem, node, at, p);
+        let samples = farthest(self.samples(node).map(|p| (distance(p), p)).collect());
+        samples.into_iter().take(count).map(|(_, p)| p).collect()
+    }
+
+    /// What is apart around a node that stands at `at`: the sum of the fourth powers of the distances of all samples, so
+    /// that the greatest count. Less than `limit`, or none.
+    pub(super) fn error(&self, problem: &Problem, node: u32, at: Point, limit: f64) -> Option<f64> {
+        let of_solid = self.samples(node).map(|p| self.distance_squared(problem, node, at, p));
+        let middles = self.around(problem, node, at).flat_map(|quad| middles(&quad));
+        let of_mesh = std::iter::once(at).chain(middles).map(|p| {
+            let distance = self.solid.nearest(p).distance;
+            distance * distance
+        });
+        let mut error = 0.0;
+        for squared in of_solid.chain(of_mesh) {
+            error += squared * squared;
+            if error >= limit {
+                return None;
+            }
+        }
+        Some(error)
+    }
+
+    /// The samples of the solid at the quads around a node.
+    fn samples(&self, node: u32) -> impl Iterator<Item = Point> + '_ {
+        self.around[node as usize].iter().flat_map(|&q| self.samples[q as usize].iter().copied())
+    }
+
+    /// The quads around a node that stands at `at`.
+    fn around(&self, problem: &Problem, node: u32, at: Point) -> impl Iterator<Item = [Point; 4]> {
+        let place = move |n: u32| if n == node { at } else { problem.points[n as usize] };
+        self.around[node as usize].iter().map(move |&q| self.quads[q as usize].map(place))
+    }
+
+    /// How far a sample is from these, squared.
+    fn distance_squared(&self, problem: &Problem, node: u32, at: Point, sample: Point) -> f64 {
+        let to = |half: [Point; 3]| closest_on_triangle(sample, half).distance_squared(sample);
+        let halves = self.around(problem, node, at).flat_map(|quad| halves(&quad));
+        halves.map(to).fold(f64::INFINITY, f64::min)
+    }
+}

@@ -1,0 +1,312 @@
+//! Brings mesh and solid nearer to each other where they are farthest.
+//!
+//! Where the solid bends within an edge the boundary cuts across, and how far depends on where its nodes stand: nearest is
+//! it with nodes on the ridges. No gradient leads there, so each node there tries places around it, and towards what of the
+//! solid is far: of those that keep the cells good it takes the one with the least that is apart (`Apart`). Nodes that are
+//! held stay on their surface or curve; those that are off the solid go anywhere. The inside follows.
+
+use super::super::correspondence::{Anchor, Correspondence};
+use super::FITTING;
+use super::apart::{Apart, Survey, samples};
+use super::holds::Hold;
+use super::progress::Part;
+use super::target::{OnSolid, Target};
+use crate::geometry::Point;
+use crate::mesh::{HexMesh, NodeId};
+use crate::optimize::{Constraints, Moved, Problem, Star, Weights, even_out, keep_positive, worst_kept};
+use crate::solid::SolidModel;
+use crate::{Cancelled, Monitor, parallel};
+
+/// What is farther apart than this share of the farthest, and than so many edges, is brought nearer.
+const SHARE: f64 = 0.5;
+const LEAST: f64 = 0.1;
+
+/// How often each node is tried, before what is inside follows, and how often that is done.
+const TRIES: usize = 8;
+const ROUNDS: usize = 6;
+
+/// Another round is made where the farthest is so much nearer than it was before.
+const ENOUGH: f64 = 0.98;
+
+/// Rings of cells around them whose inside follows.
+const RINGS: usize = 2;
+
+/// No cell is made worse than this by that, unless it is already: the less, the farther mesh and solid are apart there,
+/// from `LEAST` edges to `MOST`.
+const FLOORS: [f64; 2] = [0.65, 0.45];
+const MOST: f64 = 0.18;
+
+/// What is apart has to become less by this share of it.
+const GAIN: f64 = 0.02;
+
+/// How far places around a node are from it, in edges, and those towards a sample, as shares of the way.
+const STEPS: [f64; 3] = [0.3, 0.15, 0.05];
+const SHARES: [f64; 3] = [1.0, 0.5, 0.25];
+const FARTHEST: usize = 8;
+
+/// Nodes between two questions whether to stop.
+const BATCH: usize = 64;
+
+/// Moves boundary nodes where mesh and solid are farthest from each other. Returns the number of sweeps.
+pub(super) fn near(
+    mesh: &mut HexMesh,
+    on: &Correspondence,
+    holds: &[Hold],
+    solid: &SolidModel,
+    monitor: &dyn Monitor,
+) -> Result<usize, Cancelled> {
+    let samples = samples(mesh, &on.faces, solid, monitor)?;
+    let (mut sweeps, mut before) = (0, f64::INFINITY);
+    for round in 0..ROUNDS {
+        let part = |from: f64, to: f64| Part {
+            whole: monitor,
+            stage: FITTING,
+            range: [from, to].map(|share| (round as f64 + share) / ROUNDS as f64),
+        };
+        let survey = Survey::new(mesh, &on.faces, solid, &samples, monitor)?;
+        let farthest = survey.distances.iter().copied().fold(0.0, f64::max);
+        if farthest > ENOUGH * before {
+            break;
+        }
+        before = farthest;
+        let far = far(mesh, on, holds, &survey, SHARE * farthest);
+        let moves = |n: NodeId| far[n.index()];
+        let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
+        let apart = Apart::new(&problem, &on.faces, survey, solid);
+        let places = Places { on, holds, target: OnSolid::new(solid, &on.reduction), apart };
+        let tries = places.try_all(&mut problem, &part(0.0, 0.7))?;
+        problem.write_back(&mut mesh.positions);
+        if tries == 0 {
+            break;
+        }
+        sweeps += tries + follow(mesh, on, &problem, &part(0.7, 1.0))?;
+    }
+    Ok(sweeps)
+}
+
+/// The nodes of the quads that are farther than some edges and `least`, if they may move.
+fn far(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], survey: &Survey, least: f64) -> Vec<bool> {
+    let mut is_far = vec![false; mesh.positions.len()];
+    for ((quad, _), &distance) in on.faces.iter().zip(&survey.distances) {
+        if distance > least.max(LEAST * edge(mesh, quad)) {
+            quad.iter().for_each(|n| is_far[n.index()] = true);
+        }
+    }
+    let is_placed = |n: usize| holds[n] == Hold::Held && on.anchors[n].freedom() == 0;
+    (0..is_far.len()).map(|n| is_far[n] && !is_placed(n)).collect()
+}
+
+/// Smooths what is inside around the nodes that moved. Returns the number of sweeps.
+fn follow(
+    mesh: &mut HexMesh,
+    on: &Correspondence,
+    moved: &Problem,
+    monitor: &dyn Monitor,
+) -> Result<usize, Cancelled> {
+    let mut is_near = vec![false; mesh.positions.len()];
+    moved.nodes.iter().for_each(|n| is_near[n.index()] = true);
+    for _ in 0..RINGS {
+        let touched = parallel::try_filter(mesh.hexes.len(), monitor, |h| {
+            mesh.hexes[h].iter().any(|n| is_near[n.index()])
+        })?;
+        touched.iter().flat_map(|&h| mesh.hexes[h as usize]).for_each(|n| is_near[n.index()] = true);
+    }
+    let moves = |n: NodeId| is_near[n.index()] && on.anchors[n.index()] == Anchor::Inside;
+    let mut inside = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
+    let sweeps = even_out(&mut inside, &Constraints::none(mesh.positions.len()), monitor)?;
+    inside.write_back(&mut mesh.positions);
+    Ok(sweeps)
+}
+
+/// The mean length of a quad's sides.
+fn edge(mesh: &HexMesh, quad: &[NodeId; 4]) -> f64 {
+    let at = |k: usize| mesh.positions[quad[k % 4].index()];
+    (0..4).map(|k| at(k).distance(at(k + 1))).sum::<f64>() / 4.0
+}
+
+/// The scaled Jacobian that is left where mesh and solid are so many edges apart.
+fn floor(distance: f64) -> f64 {
+    let share = ((distance - LEAST) / (MOST - LEAST)).clamp(0.0, 1.0);
+    FLOORS[0] + share * (FLOORS[1] - FLOORS[0])
+}
+
+/// Where nodes may go.
+struct Places<'a> {
+    on: &'a Correspondence,
+    holds: &'a [Hold],
+    target: OnSolid<'a>,
+    apart: Apart<'a>,
+}
+
+impl Places<'_> {
+    /// Tries other places for all nodes, as often as one is better. Returns how often.
+    fn try_all(&self, problem: &mut Problem, monitor: &dyn Monitor) -> Result<usize, Cancelled> {
+        let mut awake = vec![true; problem.movable()];
+        for tried in 0..TRIES {
+            monitor.checkpoint(FITTING, tried as f64 / TRIES as f64)?;
+            let (_, moved) =
+                keep_positive(problem, &mut awake, monitor, |problem, _| self.round(problem, monitor))?;
+            if moved.nodes.is_empty() {
+                return Ok(tried);
+            }
+        }
+        Ok(TRIES)
+    }
+
+    /// Moves each node to its best place.
+    fn round(&self, problem: &mut Problem, monitor: &dyn Monitor) -> Result<Moved, Cancelled> {
+        let mut moved = Moved::default();
+        for colour in 0..problem.colours.len() {
+            let nodes = problem.colours[colour].clone();
+            for batch in nodes.chunks(BATCH) {
+                monitor.proceed()?;
+                let best = parallel::collect_with(batch.len(), Star::default, |star, k| {
+                    self.best(problem, batch[k], star)
+                });
+                for (&node, to) in batch.iter().zip(best) {
+                    if let Some(to) = to {
+                        problem.points[node as usize] = to;
+                        moved.nodes.push(node);
+                    }
+                }
+            }
+        }
+        Ok(moved)
+    }
+
+    /// The best place for a node, if that is not where it is.
+    fn best(&self, problem: &Problem, node: u32, star: &mut Star) -> Option<Point> {
+        let from = problem.points[node as usize];
+        star.gather(problem, node, 0.0);
+        let shape = Weights { doublings: 0, mu: 0.0 };
+        let floor = floor(self.apart.farthest(node) / problem.edge(node));
+        let before = star.read(from, shape, f64::INFINITY)?.worst;
+        let mut least = self.apart.error(problem, node, from, f64::INFINITY)? * (1.0 - GAIN);
+        let mut best = None;
+        for to in self.places(problem, node, from) {
+            let after = star.read(to, shape, f64::INFINITY).map(|reading| reading.worst);
+            let is_good = |after| after <= worst_kept(before, floor);
+            if !after.is_some_and(is_good) || !star.stays_positive(to) {
+                continue;
+            }
+            if let Some(error) = self.apart.error(problem, node, to, least) {
+                (least, best) = (error, Some(to));
+            }
+        }
+        best
+    }
+
+    /// Places that a node may go to.
+    fn places(&self, problem: &Problem, node: u32, from: Point) -> Vec<Point> {
+        let id = problem.nodes[node as usize];
+        let anchor = self.on.anchors[id.index()];
+        let edge = problem.edge(node);
+        let is_held = self.holds[id.index()] == Hold::Held;
+        let foot = self.target.foot(anchor, from);
+        let mut to: Vec<Point> = Vec::new();
+        let directions: Vec<Point> = match (anchor, foot) {
+            (Anchor::Surface(_), Some(foot)) if is_held => {
+                let (a, b) = foot.direction.any_orthonormal_pair();
+                let [c, d] = [a + b, a - b].map(|v| v * std::f64::consts::FRAC_1_SQRT_2);
+                vec![a, b, c, d]
+            }
+            (Anchor::Curve(_), Some(foot)) if is_held => vec![foot.direction],
+            _ => Point::AXES.to_vec(),
+        };
+        for step in STEPS {
+            to.extend(directions.iter().flat_map(|&v| [from + v * (step * edge), from - v * (step * edge)]));
+        }
+        let mut samples = self.apart.farthest_samples(problem, node, FARTHEST);
+        if !is_held {
+            samples.extend(foot.map(|foot| foot.point));
+        }
+        to.extend(samples.iter().flat_map(|&s| SHARES.map(|share| from.lerp(s, share))));
+        if is_held {
+            to.into_iter().filter_map(|p| Some(self.target.foot(anchor, p)?.point)).collect()
+        } else {
+            to
+        }
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::Silent;
+    use crate::hexing::correspondence::correspond;
+    use crate::mesh::quality::scaled_jacobian;
+    use crate::mesh::{GridOptions, PolygonMesh, hex_grid};
+
+    /// How much the roof of a house of 2 by 2 rises from its eaves to the ridge: less than a feature.
+    const RISE: f64 = 0.25;
+
+    fn house() -> SolidModel {
+        let profile = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [1.0, 1.5 + RISE], [0.0, 1.5]];
+        let end = |y: f64| profile.map(|[x, z]| Point::new(x, y, z));
+        let mut surface = PolygonMesh { positions: [end(0.0), end(2.0)].concat(), ..PolygonMesh::default() };
+        surface.push_face([0, 1, 2, 3, 4].map(NodeId));
+        surface.push_face([9, 8, 7, 6, 5].map(NodeId));
+        for k in 0..5 {
+            let next = (k + 1) % 5;
+            surface.push_face([next, k, k + 5, next + 5].map(NodeId));
+        }
+        crate::solid::testing::solid(&surface)
+    }
+
+    /// Five cells across: no node is near the ridge.
+    fn mesh_of_house() -> HexMesh {
+        let options = GridOptions { spacing: 0.4, margin: 0.0, fitted: true, max_hexes: 1000 };
+        let mut mesh = hex_grid(house().bounds(), &options).unwrap();
+        let top = 1.5 + RISE;
+        mesh.positions.iter_mut().for_each(|p| p.z *= (top - RISE * (p.x - 1.0).abs()) / top);
+        mesh
+    }
+
+    fn farthest(mesh: &HexMesh, on: &Correspondence, solid: &SolidModel) -> f64 {
+        let samples = samples(mesh, &on.faces, solid, &Silent).unwrap();
+        let survey = Survey::new(mesh, &on.faces, solid, &samples, &Silent).unwrap();
+        survey.distances.iter().copied().fold(0.0, f64::max)
+    }
+
+    fn held(on: &Correspondence) -> Vec<Hold> {
+        let hold = |anchor: &Anchor| if *anchor == Anchor::Inside { Hold::Free } else { Hold::Held };
+        on.anchors.iter().map(hold).collect()
+    }
+
+    #[test]
+    fn nodes_slide_to_a_ridge_that_is_no_feature() {
+        let (solid, mut mesh) = (house(), mesh_of_house());
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let before = farthest(&mesh, &on, &solid);
+        assert!((0.045..0.055).contains(&before), "a fifth of an edge and more: {before}");
+        assert!(near(&mut mesh, &on, &held(&on), &solid, &Silent).unwrap() > 0);
+        let after = farthest(&mesh, &on, &solid);
+        assert!(after < 0.4 * before, "{before} {after}");
+        for (anchor, p) in on.anchors.iter().zip(&mesh.positions) {
+            assert!(*anchor == Anchor::Inside || solid.nearest(*p).distance < 1e-12, "{anchor:?} {p}");
+        }
+        let jacobian = |hex: &[NodeId; 8]| scaled_jacobian(&hex.map(|n| mesh.positions[n.index()]));
+        assert!(mesh.hexes.iter().map(jacobian).fold(1.0, f64::min) > FLOORS[1]);
+    }
+
+    #[test]
+    fn what_is_near_stays_where_it_is() {
+        let (solid, mut mesh) = (house(), mesh_of_house());
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        // With nodes on the ridge there is nothing to do.
+        mesh.positions.iter_mut().filter(|p| (p.x - 0.8).abs() < 1e-9).for_each(|p| {
+            p.z *= (1.5 + RISE) / (1.5 + 0.8 * RISE);
+            p.x = 1.0;
+        });
+        let before = mesh.positions.clone();
+        assert_eq!(near(&mut mesh, &on, &held(&on), &solid, &Silent), Ok(0));
+        assert_eq!(mesh.positions, before);
+    }
+
+    #[test]
+    fn cells_may_be_worse_where_mesh_and_solid_are_farther_apart() {
+        let least = [0.0, LEAST, 0.5 * (LEAST + MOST), MOST, 1.0].map(floor);
+        assert_eq!([least[0], least[1], least[3], least[4]], [FLOORS[0], FLOORS[0], FLOORS[1], FLOORS[1]]);
+        assert!((least[2] - 0.5 * (FLOORS[0] + FLOORS[1])).abs() < 1e-12);
+    }
+}
