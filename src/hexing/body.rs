@@ -9,8 +9,8 @@
 //!    3 for that.
 //! 5. Where cells of a grid are bad, grids whose lines stand elsewhere.
 //!
-//! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and none is
-//! begun that would be many times as large as the first.
+//! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and how many
+//! times as large as the first another may be is bounded.
 
 use super::attempt::{Meshed, attempt, off_euler};
 use super::background::{Background, BackgroundError, Failure, Missed, retry};
@@ -32,7 +32,7 @@ const ASTRAY: f64 = 0.4;
 const OTHER: f64 = 0.4;
 const LEAST: f64 = 0.5;
 
-/// The background of another try has at most so many times the hexes of the first.
+/// The background of another try has at most so many times the hexes of the first of its kind.
 const GROWTH: f64 = 4.0;
 
 /// And at most so many times where all that is too far from the solid has smaller cells: of a curved boundary that may be
@@ -83,7 +83,7 @@ pub(super) fn mesh_body(
     if site.may_be_grid() && !search.is_good(GOOD, ASTRAY * options.edge_length) {
         search.another(site.plan(Background::Grid), search.limit())?;
     }
-    search.refine()?;
+    search.refine(options.max_hexes)?;
     if site.may_be_octree() && search.is_other() {
         search.octree()?;
     }
@@ -131,16 +131,17 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Refines where the best attempt missed something, and tries again, as often as that helps.
-    fn refine(&mut self) -> Result<(), HexingError> {
+    /// Refines where the best attempt missed something, and tries again, as often as that helps, with at most so many
+    /// hexes.
+    fn refine(&mut self, max_hexes: u64) -> Result<(), HexingError> {
         for round in 1..=self.site.options.max_levels {
             let Some(plan) = self.finer(round, |_| true) else { break };
             let before = self.number();
             // Where too much is too far, what was lost alone.
-            if !self.another(plan, self.limit_of_far())?
+            if !self.another(plan, self.limit_of_far().min(max_hexes))?
                 && let Some(plan) = self.finer(round, |failure| failure.missed == Missed::Lost)
             {
-                self.another(plan, self.limit())?;
+                self.another(plan, self.limit().min(max_hexes))?;
             }
             if self.number() == before {
                 break;
@@ -151,14 +152,14 @@ impl Search<'_> {
 
     /// Tries an octree, with cells as small in details as there can be, and refines it if that is better.
     fn octree(&mut self) -> Result<(), HexingError> {
-        let finest = self.site.plan(Background::Octree);
-        for details in (0..=finest.details).rev() {
-            if self.another(Plan { details, ..finest.clone() }, self.limit_of_octree())? {
+        let (finest, limit) = (self.site.plan(Background::Octree), self.limit_of_octree());
+        for details in (1..=finest.details).rev() {
+            if self.another(Plan { details, ..finest.clone() }, limit)? {
                 break;
             }
         }
         if self.is_on(Background::Octree) {
-            self.refine()?;
+            self.refine(limit)?;
         }
         Ok(())
     }
@@ -176,7 +177,7 @@ impl Search<'_> {
         }
     }
 
-    /// How many an octree may have where there was none.
+    /// How many an octree may have, and what is refined of it.
     fn limit_of_octree(&self) -> u64 {
         let is_wrong = self.best_report().is_none_or(|best| off_euler(&best.core) > 0);
         let growth = if is_wrong { KIND_GROWTH } else { OCTREE_GROWTH };

@@ -13,7 +13,8 @@ use crate::{Monitor, parallel};
 const PLACES: usize = 16;
 
 /// About how many hexes [`hex_solid`](super::hex_solid) makes: as many as cells of the edge length, and more in regions.
-/// What curvature, or something that was missed, has refined is not counted, nor an octree instead of what was chosen. Regions that overlap are counted each.
+/// What curvature, or something that was missed, has refined is not counted, nor an octree instead of what was chosen.
+/// Regions that overlap are counted each.
 ///
 /// # Errors
 /// If a region is out of range, or the monitor stops it.

@@ -9,7 +9,7 @@ use super::background::{
 use super::direction::{DirectionScore, best_frame, principal_directions};
 use super::options::HexingOptions;
 use crate::Monitor;
-use crate::sizing::Region;
+use crate::sizing::{Region, Target};
 use crate::solid::SolidModel;
 
 /// A body and the kind of background that suits it.
@@ -96,7 +96,12 @@ impl<'a> Site<'a> {
         let &Self { solid, options, axes, .. } = self;
         let edge_length = self.edge_length(plan.kind);
         let aligned = AlignedGrid { edge_length, axes, shift: plan.shift, max_hexes };
-        let regions = [options.regions.as_slice(), &plan.regions].concat();
+        let mut regions = options.regions.clone();
+        if plan.kind == Background::Octree && self.may_be_octree() {
+            // The user's levels count from the edge length, where it was not the user who wanted an octree.
+            regions.iter_mut().for_each(finer_by_one);
+        }
+        regions.extend_from_slice(&plan.regions);
         let wanted = Wanted {
             boundary_level: boundary_level(plan.kind),
             curvature: options.curvature,
@@ -112,6 +117,13 @@ impl<'a> Site<'a> {
             }
             _ => octree(solid, &Octree { grid: aligned, wanted }, monitor),
         }
+    }
+}
+
+/// A level of a region more; a size stays.
+fn finer_by_one(region: &mut Region) {
+    if let Target::Level(level) = &mut region.target {
+        *level = level.saturating_add(1);
     }
 }
 
@@ -151,5 +163,33 @@ fn swept(
         Err(super::background::SweepError::Cancelled(cancelled)) => Err(cancelled.into()),
         // There are other backgrounds.
         Err(_) => Ok(None),
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::Silent;
+    use crate::geometry::Point;
+    use crate::sizing::Shape;
+    use crate::solid::testing::{cuboid, solid};
+
+    #[test]
+    fn levels_of_regions_count_from_the_edge_length_where_an_octree_is_no_wish() {
+        let solid = solid(&cuboid([8, 8, 8]));
+        let shape = Shape::Sphere { center: Point::splat(4.0), radius: 1.0 };
+        let finest = |background: Background| {
+            let regions = vec![Region { shape: shape.clone(), target: Target::Level(1) }];
+            let options = HexingOptions { edge_length: 1.0, regions, background, ..HexingOptions::default() };
+            let site = Site::new(&solid, &options, &Silent).unwrap();
+            let octree = site.plan(Background::Octree);
+            let made = site.background(&octree, 1_000_000, &Silent).unwrap();
+            let in_the_middle = (0..made.level.len()).filter(|&hex| {
+                let corners = made.mesh.hexes[hex].map(|n| made.mesh.positions[n.index()]);
+                (corners.into_iter().sum::<Point>() / 8.0).distance(Point::splat(4.0)) < 1.0
+            });
+            in_the_middle.map(|hex| made.level[hex]).max()
+        };
+        assert_eq!([finest(Background::Auto), finest(Background::Octree)], [Some(2), Some(1)]);
     }
 }

@@ -50,7 +50,8 @@ impl Bar {
     }
 }
 
-/// The share of the curves and surfaces that are lost; all of them where nobody looked.
+/// The share of the curves and surfaces that are lost; all of them where nobody looked. Curves that are contracted, and
+/// surfaces for which others stand, are not: they are as small as a cell.
 fn lost(features: Option<&FeatureReport>) -> f64 {
     features.map_or(1.0, |features| {
         let found = features.curves.found + features.surfaces.found;
@@ -58,7 +59,8 @@ fn lost(features: Option<&FeatureReport>) -> f64 {
     })
 }
 
-/// The share of the curves and surfaces that have edges and faces of their own; none where nobody looked.
+/// The share of the curves and surfaces that have edges and faces of their own, be they small or not; none where nobody
+/// looked.
 pub(super) fn captured(features: Option<&FeatureReport>) -> f64 {
     features.map_or(0.0, |features| {
         let [curves, surfaces] = [features.curves, features.surfaces];

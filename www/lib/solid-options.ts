@@ -14,7 +14,7 @@ export const MOST_HEXES_OF_SOLIDS = 2_000_000;
  * - `swept`: quads that follow the solid's outline, in layers: for parts that are extruded.
  * - `grid`: a grid along the solid's own axes with lines in its planar faces.
  * - `octree`: such a grid, refined where the solid has details.
- * - `auto`: what suits the solid.
+ * - `auto`: what suits the solid, another one if that does not show it.
  */
 export type Background = 'auto' | 'swept' | 'grid' | 'octree';
 

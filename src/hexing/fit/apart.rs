@@ -18,10 +18,13 @@ const STEP: f64 = 0.5;
 const DENSE: f64 = 0.15;
 
 /// Edges of the solid are straight on where the cosine between the normals at their sides is above this: 1 degree.
-const STRAIGHT: f64 = 0.9998;
+const STRAIGHT: f64 = 0.99985;
 
 /// How many samples of the solid count at a quad.
 const SAMPLES: usize = 12;
+
+/// What is no farther from the solid than this share of its diagonal is on it.
+const ON: f64 = 1e-9;
 
 /// Samples between two questions whether to stop.
 const BATCH: usize = 1 << 12;
@@ -59,26 +62,32 @@ impl Survey {
             let found = parallel::collect(batch.len(), |k| nearest.nearest(batch[k]));
             for (&p, found) in batch.iter().zip(found) {
                 if let Some(found) = found {
-                    of_quads[found.facet / 2].push((found.point.distance(p), p));
+                    let samples: &mut Vec<(f64, Point)> = &mut of_quads[found.facet / 2];
+                    samples.push((found.point.distance(p), p));
+                    if samples.len() == 2 * SAMPLES {
+                        keep_farthest(samples);
+                    }
                 }
             }
         }
         let mut of_solid = Vec::with_capacity(quads.len());
-        for (distance, samples) in distances.iter_mut().zip(of_quads) {
-            let samples = farthest(samples);
-            *distance = samples.first().map_or(*distance, |first| distance.max(first.0));
-            of_solid.push(samples.into_iter().map(|(_, p)| p).collect());
+        for (quad, mut samples) in of_quads.into_iter().enumerate() {
+            if quad.is_multiple_of(BATCH) {
+                monitor.proceed()?;
+            }
+            keep_farthest(&mut samples);
+            distances[quad] = samples.first().map_or(distances[quad], |first| distances[quad].max(first.0));
+            of_solid.push(samples.iter().map(|(_, p)| *p).collect());
         }
         Ok(Self { of_solid, distances })
     }
 }
 
-/// Of the samples at a quad, each behind its distance, those that count: the farthest first.
-fn farthest(mut samples: Vec<(f64, Point)>) -> Vec<(f64, Point)> {
+/// Of samples, each behind its distance, keeps those that count, the farthest first.
+fn keep_farthest(samples: &mut Vec<(f64, Point)>) {
     // Stable: of those that are equally far the first.
     samples.sort_by(|a, b| b.0.total_cmp(&a.0));
     samples.truncate(SAMPLES);
-    samples
 }
 
 /// Samples of a solid around a mesh: its vertices, the middles of its triangles, and points of edges where it bends. Where
@@ -90,35 +99,59 @@ pub(super) fn samples(
     monitor: &dyn Monitor,
 ) -> Result<Vec<Point>, Cancelled> {
     let edge = mean_edge(&quads(mesh, faces));
-    let origin = solid.bounds().min;
-    let mut taken = HashSet::new();
-    let mut samples = Vec::new();
-    let mut add = |p: Point| {
-        let place = ((p - origin) / (DENSE * edge)).to_array().map(|x| x as i64);
-        if taken.insert(place) {
-            samples.push(p);
-        }
+    let mut sparse = Sparse {
+        origin: solid.bounds().min,
+        size: DENSE * edge,
+        taken: HashSet::new(),
+        samples: Vec::new(),
+        asked: 0,
+        monitor,
     };
-    for batch in solid.points().chunks(BATCH) {
-        monitor.proceed()?;
-        batch.iter().copied().for_each(&mut add);
+    for &p in solid.points() {
+        sparse.add(p)?;
     }
     for (t, normal) in solid.normals().iter().enumerate() {
-        if t % BATCH == 0 {
-            monitor.proceed()?;
-        }
         let corners = solid.corners_of(t);
         for side in 0..3 {
             let other = solid.across(t, side) as usize;
             if t < other && normal.dot(solid.normals()[other]) < STRAIGHT {
                 let [from, to] = [corners[side], corners[(side + 1) % 3]];
                 let steps = (from.distance(to) / (STEP * edge)).ceil() as u32;
-                (1..steps).for_each(|k| add(from.lerp(to, f64::from(k) / f64::from(steps))));
+                for k in 1..steps {
+                    sparse.add(from.lerp(to, f64::from(k) / f64::from(steps)))?;
+                }
             }
         }
-        add(corners.into_iter().sum::<Point>() / 3.0);
+        sparse.add(corners.into_iter().sum::<Point>() / 3.0)?;
     }
-    Ok(samples)
+    Ok(sparse.samples)
+}
+
+/// Samples of which no two are in one cube.
+struct Sparse<'a> {
+    origin: Point,
+    /// The edge of a cube.
+    size: f64,
+    /// The cubes with samples.
+    taken: HashSet<[i64; 3]>,
+    samples: Vec<Point>,
+    /// How many samples were offered.
+    asked: usize,
+    monitor: &'a dyn Monitor,
+}
+
+impl Sparse<'_> {
+    fn add(&mut self, p: Point) -> Result<(), Cancelled> {
+        if self.asked.is_multiple_of(BATCH) {
+            self.monitor.proceed()?;
+        }
+        self.asked += 1;
+        let cube = ((p - self.origin) / self.size).to_array().map(|x| x as i64);
+        if self.taken.insert(cube) {
+            self.samples.push(p);
+        }
+        Ok(())
+    }
 }
 
 /// Where the corners of faces are.
@@ -126,10 +159,14 @@ fn quads(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Vec<[Point; 4]> 
     faces.iter().map(|(quad, _)| quad.map(|n| mesh.positions[n.index()])).collect()
 }
 
-/// The mean length of the sides of quads.
+/// The mean length of the sides of all quads.
 fn mean_edge(quads: &[[Point; 4]]) -> f64 {
-    let around = |quad: &[Point; 4]| (0..4).map(|k| quad[k].distance(quad[(k + 1) % 4])).sum::<f64>();
-    quads.iter().map(around).sum::<f64>() / (4 * quads.len()) as f64
+    quads.iter().map(mean_side).sum::<f64>() / quads.len() as f64
+}
+
+/// The mean length of a quad's sides.
+pub(super) fn mean_side(quad: &[Point; 4]) -> f64 {
+    (0..4).map(|k| quad[k].distance(quad[(k + 1) % 4])).sum::<f64>() / 4.0
 }
 
 /// A quad as two triangles.
@@ -187,11 +224,18 @@ impl<'a> Apart<'a> {
         self.around[node as usize].iter().map(|&q| self.distances[q as usize]).fold(0.0, f64::max)
     }
 
+    /// Is a place on the solid, or no farther from it than another?
+    pub(super) fn is_no_farther(&self, place: Point, than: Point) -> bool {
+        let distance = |p: Point| self.solid.nearest(p).distance;
+        distance(place) <= distance(than).max(ON * self.solid.diagonal())
+    }
+
     /// The samples of the solid that are farthest from the quads around a node, at most so many.
     pub(super) fn farthest_samples(&self, problem: &Problem, node: u32, count: usize) -> Vec<Point> {
         let at = problem.points[node as usize];
         let distance = |p: Point| self.distance_squared(problem, node, at, p);
-        let samples = farthest(self.samples(node).map(|p| (distance(p), p)).collect());
+        let mut samples = self.samples(node).map(|p| (distance(p), p)).collect();
+        keep_farthest(&mut samples);
         samples.into_iter().take(count).map(|(_, p)| p).collect()
     }
 

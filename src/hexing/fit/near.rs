@@ -1,19 +1,22 @@
 //! Brings mesh and solid nearer to each other where they are farthest.
 //!
-//! Where the solid bends within an edge the boundary cuts across, and how far depends on where its nodes stand: nearest is
-//! it with nodes on the ridges. No gradient leads there, so each node there tries places around it, and towards what of the
+//! Where the solid bends within an edge the boundary cuts across, and how far depends on where its nodes stand: it is
+//! nearest with nodes on the ridges. No gradient leads there, so each node there tries places around it, and towards what of the
 //! solid is far: of those that keep the cells good it takes the one with the least that is apart (`Apart`). Nodes that are
-//! held stay on their surface or curve; those that are off the solid go anywhere. The inside follows.
+//! held stay on their surface or curve; those that are off the solid go anywhere. The inside follows. What took mesh and
+//! solid farther from each other in the end is taken back.
 
 use super::super::correspondence::{Anchor, Correspondence};
 use super::FITTING;
-use super::apart::{Apart, Survey, samples};
+use super::apart::{Apart, Survey, mean_side, samples};
 use super::holds::Hold;
 use super::progress::Part;
 use super::target::{OnSolid, Target};
 use crate::geometry::Point;
 use crate::mesh::{HexMesh, NodeId};
-use crate::optimize::{Constraints, Moved, Problem, Star, Weights, even_out, keep_positive, worst_kept};
+use crate::optimize::{
+    Constraints, Moved, Problem, Star, Weights, even_out, keep_positive, wake, worst_kept,
+};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, parallel};
 
@@ -45,7 +48,7 @@ const SHARES: [f64; 3] = [1.0, 0.5, 0.25];
 const FARTHEST: usize = 8;
 
 /// Nodes between two questions whether to stop.
-const BATCH: usize = 64;
+const BATCH: usize = 16;
 
 /// Moves boundary nodes where mesh and solid are farthest from each other. Returns the number of sweeps.
 pub(super) fn near(
@@ -56,24 +59,29 @@ pub(super) fn near(
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let samples = samples(mesh, &on.faces, solid, monitor)?;
-    let (mut sweeps, mut before) = (0, f64::INFINITY);
-    for round in 0..ROUNDS {
+    let target = OnSolid::new(solid, &on.reduction);
+    let (mut sweeps, mut least, mut best) = (0, f64::INFINITY, Vec::new());
+    for round in 0..=ROUNDS {
         let part = |from: f64, to: f64| Part {
             whole: monitor,
             stage: FITTING,
-            range: [from, to].map(|share| (round as f64 + share) / ROUNDS as f64),
+            range: [from, to].map(|share| (round as f64 + share) / (ROUNDS + 1) as f64),
         };
         let survey = Survey::new(mesh, &on.faces, solid, &samples, monitor)?;
         let farthest = survey.distances.iter().copied().fold(0.0, f64::max);
-        if farthest > ENOUGH * before {
+        if farthest > least {
+            mesh.positions = best;
             break;
         }
-        before = farthest;
+        if round == ROUNDS || farthest > ENOUGH * least {
+            break;
+        }
+        (least, best) = (farthest, mesh.positions.clone());
         let far = far(mesh, on, holds, &survey, SHARE * farthest);
         let moves = |n: NodeId| far[n.index()];
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
         let apart = Apart::new(&problem, &on.faces, survey, solid);
-        let places = Places { on, holds, target: OnSolid::new(solid, &on.reduction), apart };
+        let places = Places { on, holds, target: &target, apart };
         let tries = places.try_all(&mut problem, &part(0.0, 0.7))?;
         problem.write_back(&mut mesh.positions);
         if tries == 0 {
@@ -88,7 +96,8 @@ pub(super) fn near(
 fn far(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], survey: &Survey, least: f64) -> Vec<bool> {
     let mut is_far = vec![false; mesh.positions.len()];
     for ((quad, _), &distance) in on.faces.iter().zip(&survey.distances) {
-        if distance > least.max(LEAST * edge(mesh, quad)) {
+        let edge = mean_side(&quad.map(|n| mesh.positions[n.index()]));
+        if distance > least.max(LEAST * edge) {
             quad.iter().for_each(|n| is_far[n.index()] = true);
         }
     }
@@ -118,12 +127,6 @@ fn follow(
     Ok(sweeps)
 }
 
-/// The mean length of a quad's sides.
-fn edge(mesh: &HexMesh, quad: &[NodeId; 4]) -> f64 {
-    let at = |k: usize| mesh.positions[quad[k % 4].index()];
-    (0..4).map(|k| at(k).distance(at(k + 1))).sum::<f64>() / 4.0
-}
-
 /// The scaled Jacobian that is left where mesh and solid are so many edges apart.
 fn floor(distance: f64) -> f64 {
     let share = ((distance - LEAST) / (MOST - LEAST)).clamp(0.0, 1.0);
@@ -134,30 +137,40 @@ fn floor(distance: f64) -> f64 {
 struct Places<'a> {
     on: &'a Correspondence,
     holds: &'a [Hold],
-    target: OnSolid<'a>,
+    target: &'a OnSolid<'a>,
     apart: Apart<'a>,
 }
 
 impl Places<'_> {
-    /// Tries other places for all nodes, as often as one is better. Returns how often.
+    /// Tries other places for all nodes, and again for those around one that moved. Returns how often.
     fn try_all(&self, problem: &mut Problem, monitor: &dyn Monitor) -> Result<usize, Cancelled> {
-        let mut awake = vec![true; problem.movable()];
+        let all = vec![true; problem.movable()];
+        let mut awake = all.clone();
         for tried in 0..TRIES {
             monitor.checkpoint(FITTING, tried as f64 / TRIES as f64)?;
-            let (_, moved) =
-                keep_positive(problem, &mut awake, monitor, |problem, _| self.round(problem, monitor))?;
+            let (_, moved) = keep_positive(problem, &mut awake, monitor, |problem, awake| {
+                self.round(problem, awake, monitor)
+            })?;
             if moved.nodes.is_empty() {
                 return Ok(tried);
             }
+            awake.fill(false);
+            wake(problem, &moved.nodes, &all, &mut awake);
         }
         Ok(TRIES)
     }
 
-    /// Moves each node to its best place.
-    fn round(&self, problem: &mut Problem, monitor: &dyn Monitor) -> Result<Moved, Cancelled> {
+    /// Moves each node that is awake to its best place.
+    fn round(
+        &self,
+        problem: &mut Problem,
+        awake: &[bool],
+        monitor: &dyn Monitor,
+    ) -> Result<Moved, Cancelled> {
         let mut moved = Moved::default();
         for colour in 0..problem.colours.len() {
-            let nodes = problem.colours[colour].clone();
+            let nodes: Vec<u32> =
+                problem.colours[colour].iter().copied().filter(|&n| awake[n as usize]).collect();
             for batch in nodes.chunks(BATCH) {
                 monitor.proceed()?;
                 let best = parallel::collect_with(batch.len(), Star::default, |star, k| {
@@ -182,11 +195,16 @@ impl Places<'_> {
         let floor = floor(self.apart.farthest(node) / problem.edge(node));
         let before = star.read(from, shape, f64::INFINITY)?.worst;
         let mut least = self.apart.error(problem, node, from, f64::INFINITY)? * (1.0 - GAIN);
+        let is_held = self.holds[problem.nodes[node as usize].index()] == Hold::Held;
         let mut best = None;
         for to in self.places(problem, node, from) {
             let after = star.read(to, shape, f64::INFINITY).map(|reading| reading.worst);
             let is_good = |after| after <= worst_kept(before, floor);
             if !after.is_some_and(is_good) || !star.stays_positive(to) {
+                continue;
+            }
+            // Planes go on beyond their surface.
+            if is_held && !self.apart.is_no_farther(to, from) {
                 continue;
             }
             if let Some(error) = self.apart.error(problem, node, to, least) {
@@ -231,11 +249,15 @@ impl Places<'_> {
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
+    use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+    use super::super::{FitOptions, NEAR, fit};
     use super::*;
-    use crate::Silent;
     use crate::hexing::correspondence::correspond;
+    use crate::hexing::sheets::insert_sheets;
     use crate::mesh::quality::scaled_jacobian;
     use crate::mesh::{GridOptions, PolygonMesh, hex_grid};
+    use crate::{Silent, Stage};
 
     /// How much the roof of a house of 2 by 2 rises from its eaves to the ridge: less than a feature.
     const RISE: f64 = 0.25;
@@ -308,5 +330,33 @@ mod tests {
         let least = [0.0, LEAST, 0.5 * (LEAST + MOST), MOST, 1.0].map(floor);
         assert_eq!([least[0], least[1], least[3], least[4]], [FLOORS[0], FLOORS[0], FLOORS[1], FLOORS[1]]);
         assert!((least[2] - 0.5 * (FLOORS[0] + FLOORS[1])).abs() < 1e-12);
+    }
+
+    /// Stops the work when it has come to the last step.
+    struct AtLast(AtomicBool);
+
+    impl Monitor for AtLast {
+        fn progress(&self, _: Stage, fraction: f64) {
+            self.0.fetch_or(fraction >= NEAR, Relaxed);
+        }
+
+        fn cancelled(&self) -> bool {
+            self.0.load(Relaxed)
+        }
+    }
+
+    #[test]
+    fn a_fit_that_is_stopped_at_last_leaves_nodes_where_they_were() {
+        let (solid, mut mesh) = (house(), mesh_of_house());
+        let mut on = correspond(&mesh, &solid, &Silent).unwrap();
+        let mut sheets = insert_sheets(&mut mesh, &mut on, &solid, &Silent).unwrap();
+        let before = mesh.positions.clone();
+        let mut fitted = |mesh: &mut HexMesh, monitor: &dyn Monitor| {
+            fit(mesh, &mut on, &mut sheets, &solid, &FitOptions::default(), monitor).err()
+        };
+        let stopped = fitted(&mut mesh, &AtLast(AtomicBool::new(false)));
+        assert_eq!((stopped, &mesh.positions), (Some(Cancelled), &before));
+        assert_eq!(fitted(&mut mesh, &Silent), None);
+        assert!(mesh.positions != before, "there was something to do");
     }
 }

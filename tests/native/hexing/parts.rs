@@ -44,6 +44,7 @@ fn a_part_whose_kind_no_grid_shows_is_cut_out_of_an_octree() {
     let hexed = hexed(&random_part(95), 1.0 / 12.0);
     let (body, result) = (&hexed.report.bodies[0], hexed.report.result());
     let tried = |kind: Background| body.attempts.iter().filter(move |attempt| attempt.background == kind);
+    assert!(body.choice.kind != Background::Octree && tried(Background::Grid).count() > 0);
     assert!(tried(Background::Grid).all(|attempt| attempt.core.euler != attempt.core.solid_euler));
     assert_eq!(body.attempts[body.kept.unwrap()].background, Background::Octree);
     assert_eq!(result.euler, result.solid_euler);
