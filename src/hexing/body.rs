@@ -5,9 +5,9 @@
 //! 3. Where the best missed something, or is too far from the solid, cells a level smaller there, as often as the options
 //!    allow, and as long as it helps. Of a core that is not of the solid's kind it is not always known where it differs:
 //!    then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was lost alone.
-//! 4. Where the best is still of another kind than the solid, far off it or without half of its features, an octree, and
+//! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
+//! 5. Where the best is still of another kind than the solid, far off it or without half of its features, an octree, and
 //!    3 for that.
-//! 5. Where cells of a grid are bad, grids whose lines stand elsewhere.
 //!
 //! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and how many
 //! times as large as the first another may be is bounded.
@@ -84,15 +84,15 @@ pub(super) fn mesh_body(
         search.another(site.plan(Background::Grid), search.limit())?;
     }
     search.refine(options.max_hexes)?;
-    if site.may_be_octree() && search.is_other() {
-        search.octree()?;
-    }
     if search.is_on(Background::Grid) {
         for shift in SHIFTS {
             if !search.is_good(GOOD, f64::INFINITY) {
                 search.another(Plan { shift, ..site.plan(Background::Grid) }, search.limit())?;
             }
         }
+    }
+    if site.may_be_octree() && search.is_other() {
+        search.octree()?;
     }
     match (&search.best, search.tangled) {
         (None, Some(hexes)) => Err(HexingError::Tangled(hexes)),
