@@ -71,7 +71,9 @@ pub(super) fn attempt(
     }
 
     let mut sheets = insert_sheets(&mut mesh, &mut on, solid, monitor)?;
-    let fitted = fit(&mut mesh, &mut on, &mut sheets, solid, &FitOptions::default(), monitor)?;
+    let max_distance = options.max_distance.unwrap_or(f64::INFINITY);
+    let fit_options = FitOptions { max_distance, ..FitOptions::default() };
+    let fitted = fit(&mut mesh, &mut on, &mut sheets, solid, &fit_options, monitor)?;
     report.features = Some(FeatureReport::new(solid, &on.reduction));
     if !fitted.inverted.is_empty() {
         return Err(HexingError::Tangled(fitted.inverted.len()));

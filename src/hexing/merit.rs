@@ -6,10 +6,10 @@
 //!
 //! | what | as |
 //! |---|---|
-//! | how far mesh and solid are from each other | edges |
+//! | how far mesh and solid are from each other | edges, twice |
 //! | curves and surfaces that are lost | share of all |
 //! | the mean scaled Jacobian | what it lacks to 1, four times, and to [`FAIR`], ten times |
-//! | the least scaled Jacobian | what it lacks to [`GOOD`], as a share of that |
+//! | the least scaled Jacobian | what it lacks to [`GOOD`], as a share of that, twice |
 
 use std::cmp::Ordering;
 
@@ -19,6 +19,10 @@ use super::report::{AttemptReport, FeatureReport};
 
 /// A least scaled Jacobian with which there is nothing to mend.
 pub(super) const GOOD: f64 = 0.35;
+
+/// What the distance weighs, and a lack of the least scaled Jacobian.
+const APART: f64 = 2.0;
+const WORST: f64 = 2.0;
 
 /// What a lack of mean scaled Jacobian weighs.
 const MEAN: f64 = 4.0;
@@ -94,11 +98,11 @@ pub(super) fn is_better(a: &AttemptReport, b: &AttemptReport, options: &HexingOp
 fn cost(report: &AttemptReport, options: &HexingOptions) -> f64 {
     let Some(mesh) = &report.mesh else { return f64::INFINITY };
     let lacking = (GOOD - mesh.worst).max(0.0) / GOOD;
-    distance(report) / options.edge_length
+    APART * distance(report) / options.edge_length
         + lost(report.features.as_ref())
         + MEAN * (1.0 - mesh.mean)
         + UNFAIR * (FAIR - mesh.mean).max(0.0)
-        + lacking
+        + WORST * lacking
 }
 
 #[cfg(test)]

@@ -166,11 +166,13 @@ pub struct LostFeature {
 pub struct SheetCounts {
     /// Sheets over groups of surfaces.
     pub sheets: usize,
+    /// Pillows beside curves that have room for one hex alone.
+    pub wedges: usize,
     /// Pillows around hexes at smooth curves.
     pub collars: usize,
-    /// Hexes of both.
+    /// Hexes of all these.
     pub hexes: usize,
-    /// Sheets and collars that were taken back, since their cells could not be pushed open.
+    /// Sheets, wedges and collars that were taken back, since their cells could not be pushed open.
     pub taken_back: usize,
     /// Nodes at which a sheet that was needed would have been pinched.
     pub pinched: usize,
@@ -291,6 +293,7 @@ impl SheetCounts {
     pub(super) fn new(sheets: &SheetReport, fitted: &FitReport) -> Self {
         Self {
             sheets: sheets.sheets,
+            wedges: sheets.wedges,
             collars: sheets.collars,
             hexes: sheets.hexes,
             taken_back: fitted.taken_back,

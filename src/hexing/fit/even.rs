@@ -4,7 +4,7 @@
 use super::super::correspondence::Correspondence;
 use super::holds::{Hold, Holds};
 use super::target::OnSolid;
-use crate::mesh::{HexMesh, NodeId};
+use crate::mesh::HexMesh;
 use crate::optimize::{Problem, even_out};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
@@ -17,12 +17,10 @@ pub(super) fn even(
     solid: &SolidModel,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    // Nodes that are off the solid would drift.
-    let moves = |n: NodeId| holds[n.index()] != Hold::Drawn;
-    let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
+    let mut problem = Problem::within(&mesh.positions, &mesh.hexes, |_| true, monitor)?;
     problem.order_by(4, |n| on.anchors[n.index()].freedom());
     let target = OnSolid::new(solid, &on.reduction);
-    let guide = Holds::of(&target, &on.anchors, holds.to_vec());
+    let guide = Holds::kept(&target, &on.anchors, holds, &mesh.positions);
     let sweeps = even_out(&mut problem, &guide, monitor)?;
     problem.write_back(&mut mesh.positions);
     Ok(sweeps)

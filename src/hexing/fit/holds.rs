@@ -1,5 +1,7 @@
 //! What holds each node while the mesh is fitted: nothing, a pull to its foot on the solid, or the solid itself.
 
+use std::collections::BTreeMap;
+
 use super::super::correspondence::Anchor;
 use super::target::Target;
 use crate::geometry::Point;
@@ -21,6 +23,8 @@ pub(super) enum Hold {
     Drawn,
     /// It is on the solid, and slides there.
     Held,
+    /// It goes anywhere that is no farther from its foot than its leash is long.
+    Leashed,
     /// It stays where it is.
     Pinned,
 }
@@ -32,6 +36,8 @@ pub(super) struct Holds<'a> {
     pub(super) holds: Vec<Hold>,
     /// Where on its curve a node is drawn, if that is not its foot.
     pub(super) places: Vec<Option<Point>>,
+    /// How long the leashes are, in model units.
+    pub(super) leashes: BTreeMap<NodeId, f64>,
     /// Of the pull, where lengths are in units of the node's mean edge.
     pub(super) weight: f64,
     /// The share of that for nodes of surfaces.
@@ -52,7 +58,29 @@ impl<'a> Holds<'a> {
 
     /// With the holds given.
     pub(super) fn of(target: &'a dyn Target, anchors: &'a [Anchor], holds: Vec<Hold>) -> Self {
-        Self { target, anchors, places: vec![None; holds.len()], holds, weight: 0.0, surfaces: 1.0 }
+        let (places, leashes) = (vec![None; holds.len()], BTreeMap::new());
+        Self { target, anchors, places, leashes, holds, weight: 0.0, surfaces: 1.0 }
+    }
+
+    /// With the holds given, where nodes that are off the solid come no farther from it than they are.
+    pub(super) fn kept(
+        target: &'a dyn Target,
+        anchors: &'a [Anchor],
+        holds: &[Hold],
+        positions: &[Point],
+    ) -> Self {
+        let mut kept = Self::of(target, anchors, holds.to_vec());
+        for n in (0..holds.len()).filter(|&n| holds[n] == Hold::Drawn) {
+            let foot = target.foot(anchors[n], positions[n]);
+            kept.leash(NodeId::new(n), foot.map_or(0.0, |foot| foot.point.distance(positions[n])));
+        }
+        kept
+    }
+
+    /// Keeps a node so near to its foot.
+    pub(super) fn leash(&mut self, node: NodeId, length: f64) {
+        self.holds[node.index()] = Hold::Leashed;
+        self.leashes.insert(node, length);
     }
 
     pub(super) fn is(&self, node: NodeId, hold: Hold) -> bool {
@@ -78,7 +106,7 @@ impl Guide for Holds<'_> {
         let foot = || self.target.foot(self.anchors[node.index()], p);
         let across = |v: Point| Symmetric::IDENTITY + Symmetric::outer(v) * -1.0;
         match self.holds[node.index()] {
-            Hold::Free => Symmetric::IDENTITY,
+            Hold::Free | Hold::Leashed => Symmetric::IDENTITY,
             Hold::Drawn if self.weight > 0.0 => Symmetric::IDENTITY,
             Hold::Drawn => {
                 let away = foot().map_or(Point::ZERO, |foot| p - foot.point);
@@ -96,6 +124,10 @@ impl Guide for Holds<'_> {
     fn project(&self, node: NodeId, _: Point, p: Point) -> Point {
         match self.holds[node.index()] {
             Hold::Held => self.target.foot(self.anchors[node.index()], p).map_or(p, |foot| foot.point),
+            Hold::Leashed => self
+                .target
+                .foot(self.anchors[node.index()], p)
+                .map_or(p, |foot| foot.point + (p - foot.point).clamp_length_max(self.leashes[&node])),
             _ => p,
         }
     }
@@ -115,5 +147,43 @@ impl Guide for Holds<'_> {
             _ => Symmetric::IDENTITY,
         };
         Some(Pull { to: place.unwrap_or(foot.point), weight: shape * (self.weight / (size * size)) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::target::OnSolid;
+    use super::*;
+    use crate::Silent;
+    use crate::geometry::Aabb;
+    use crate::hexing::correspondence::correspond;
+    use crate::mesh::{GridOptions, hex_grid};
+    use crate::solid::testing::{cuboid, solid};
+
+    #[test]
+    fn nodes_on_leashes_come_no_farther_from_the_solid() {
+        let solid = solid(&cuboid([4, 4, 4]));
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 100 };
+        let mut mesh = hex_grid(Aabb { min: Point::ZERO, max: Point::splat(4.0) }, &options).unwrap();
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let target = OnSolid::new(&solid, &on.reduction);
+        let node = |p: Point| NodeId::new(mesh.positions.iter().position(|&q| q == p).unwrap());
+        let (top, corner) = (node(Point::new(2.0, 2.0, 4.0)), node(Point::ZERO));
+        let mut holds = vec![Hold::Held; mesh.positions.len()];
+        holds[top.index()] = Hold::Drawn;
+        mesh.positions[top.index()].z = 3.5;
+        let mut kept = Holds::kept(&target, &on.anchors, &holds, &mesh.positions);
+        assert!(kept.is(top, Hold::Leashed) && kept.is(corner, Hold::Held));
+        // Along the surface and nearer to it as the node likes.
+        for free in [Point::new(1.0, 3.0, 3.5), Point::new(2.0, 2.0, 4.0), Point::new(2.0, 2.0, 3.9)] {
+            assert_eq!(kept.project(top, free, free), free);
+        }
+        let far = Point::new(1.0, 2.0, 2.5);
+        assert_eq!(kept.project(top, far, far), Point::new(1.0, 2.0, 3.5));
+        let away = Point::X * 0.5;
+        assert_eq!(kept.project(corner, away, away), Point::ZERO);
+        kept.leash(corner, 0.25);
+        assert_eq!(kept.project(corner, away, away), Point::X * 0.25);
+        assert_eq!(kept.tangent(corner, away), Symmetric::IDENTITY);
     }
 }

@@ -26,7 +26,7 @@ pub(super) struct Inflated {
     /// All of the mesh, each node movable.
     pub(super) problem: Problem,
     pub(super) sweeps: usize,
-    /// Sheets and collars that were taken back.
+    /// Sheets, wedges and collars that were taken back.
     pub(super) taken_back: usize,
 }
 

@@ -86,11 +86,17 @@ pub struct FitOptions {
     pub sweeps: usize,
     /// How the cells are smoothed in the end.
     pub smoothing: OptimizeOptions,
+    /// Around poor cells nodes leave the solid by no more than this, in model units.
+    pub max_distance: f64,
 }
 
 impl Default for FitOptions {
     fn default() -> Self {
-        Self { sweeps: 40, smoothing: OptimizeOptions { smooth_sweeps: 10, ..Default::default() } }
+        Self {
+            sweeps: 40,
+            smoothing: OptimizeOptions { smooth_sweeps: 10, ..Default::default() },
+            max_distance: f64::INFINITY,
+        }
     }
 }
 
@@ -108,7 +114,7 @@ pub struct OffNode {
 /// What came of a fit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FitReport {
-    /// Sheets and collars that were taken back, since their cells could not be pushed open.
+    /// Sheets, wedges and collars that were taken back, since their cells could not be pushed open.
     pub taken_back: usize,
     /// Sweeps over nodes.
     pub sweeps: usize,
@@ -138,11 +144,11 @@ pub fn fit(
     let before = mesh.positions.clone();
     let reduction = on.reduction.clone();
     let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
-    let (mut report, holds) =
+    let (mut report, mut holds) =
         fitted(mesh, on, sheets, &OnSolid::new(solid, &reduction), options, &part(0.0, SOFTEN))?;
     if report.inverted.is_empty() {
         let mut polish = || {
-            let softened = soften(mesh, on, &holds, solid, &part(SOFTEN, EVEN))?;
+            let softened = soften(mesh, on, &mut holds, solid, options.max_distance, &part(SOFTEN, EVEN))?;
             let evened = even(mesh, on, &holds, solid, &part(EVEN, NEAR))?;
             Ok(softened + evened + near(mesh, on, &holds, solid, &part(NEAR, 1.0))?)
         };

@@ -7,11 +7,11 @@
 //! solid farther from each other in the end is taken back.
 
 use super::super::correspondence::{Anchor, Correspondence};
-use super::FITTING;
 use super::apart::{Apart, Survey, mean_side, samples};
 use super::holds::Hold;
 use super::progress::Part;
 use super::target::{OnSolid, Target};
+use super::{FITTING, quality};
 use crate::geometry::Point;
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{
@@ -35,9 +35,10 @@ const ENOUGH: f64 = 0.98;
 const RINGS: usize = 2;
 
 /// No cell is made worse than this by that, unless it is already: the less, the farther mesh and solid are apart there,
-/// from `LEAST` edges to `MOST`.
-const FLOORS: [f64; 2] = [0.65, 0.45];
-const MOST: f64 = 0.18;
+/// from `LEAST` edges to `MOST`. Nor worse than the worst of all, if that is below `GOOD`, or else this.
+const FLOORS: [f64; 2] = [0.65, 0.35];
+const MOST: f64 = 0.22;
+const GOOD: f64 = 0.45;
 
 /// What is apart has to become less by this share of it.
 const GAIN: f64 = 0.02;
@@ -81,7 +82,8 @@ pub(super) fn near(
         let moves = |n: NodeId| far[n.index()];
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
         let apart = Apart::new(&problem, &on.faces, survey, solid);
-        let places = Places { on, holds, target: &target, apart };
+        let worst = quality(mesh).0.map_or(GOOD, |worst| worst.min(GOOD));
+        let places = Places { on, holds, target: &target, apart, worst };
         let tries = places.try_all(&mut problem, &part(0.0, 0.7))?;
         problem.write_back(&mut mesh.positions);
         if tries == 0 {
@@ -139,6 +141,8 @@ struct Places<'a> {
     holds: &'a [Hold],
     target: &'a OnSolid<'a>,
     apart: Apart<'a>,
+    /// No cell is to be worse.
+    worst: f64,
 }
 
 impl Places<'_> {
@@ -192,7 +196,7 @@ impl Places<'_> {
         let from = problem.points[node as usize];
         star.gather(problem, node, 0.0);
         let shape = Weights { doublings: 0, mu: 0.0 };
-        let floor = floor(self.apart.farthest(node) / problem.edge(node));
+        let floor = floor(self.apart.farthest(node) / problem.edge(node)).max(self.worst);
         let before = star.read(from, shape, f64::INFINITY)?.worst;
         let mut least = self.apart.error(problem, node, from, f64::INFINITY)? * (1.0 - GAIN);
         let is_held = self.holds[problem.nodes[node as usize].index()] == Hold::Held;
@@ -308,7 +312,7 @@ mod tests {
             assert!(*anchor == Anchor::Inside || solid.nearest(*p).distance < 1e-12, "{anchor:?} {p}");
         }
         let jacobian = |hex: &[NodeId; 8]| scaled_jacobian(&hex.map(|n| mesh.positions[n.index()]));
-        assert!(mesh.hexes.iter().map(jacobian).fold(1.0, f64::min) > FLOORS[1]);
+        assert!(mesh.hexes.iter().map(jacobian).fold(1.0, f64::min) > GOOD);
     }
 
     #[test]

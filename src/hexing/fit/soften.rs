@@ -4,7 +4,10 @@
 //! or go round a small part of it, nodes are held at places that have no room for good cells. As long as cells are poor,
 //!
 //! 1. the curve at each that is missed least is given up: its nodes slide on the surface from now on;
-//! 2. the cells around are smoothed, with many sweeps, since they are few.
+//! 2. the cells around are smoothed, with many sweeps, since they are few. Nodes that are off the solid come no farther
+//!    from it;
+//! 3. nodes of poor cells that are off the solid may go a little farther, and on shapes that nobody drew those that belong
+//!    on other curves and corners may leave them.
 
 use std::collections::BTreeSet;
 
@@ -12,13 +15,13 @@ use super::super::correspondence::{Anchor, Correspondence, CurveFate, Reason};
 use super::FITTING;
 use super::holds::{Hold, Holds};
 use super::progress::Part;
-use super::target::OnSolid;
+use super::target::{OnSolid, Target};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{OptimizeOptions, Problem, smooth};
-use crate::solid::{CurveId, SolidModel, SurfaceClass, SurfaceId};
+use crate::solid::{CurveId, SolidModel, Surface, SurfaceClass, SurfaceId};
 use crate::{Cancelled, Monitor, parallel};
 
 /// Cells whose scaled Jacobian is below this are poor.
@@ -28,6 +31,15 @@ const POOR: f64 = 0.46;
 /// neither planar nor extruded, and they are one surface, or the square root of the area of one is less than so many edges.
 const SOFT: f64 = 60.0;
 const SMALL: f64 = 0.8;
+
+/// How far nodes may go from where they belong, in edges.
+const LEAVE: f64 = 0.15;
+
+/// Nobody drew a solid with features if this share of its surface is general.
+const UNDRAWN: f64 = 0.9;
+
+/// Where no curve is left, cells are smoothed as long as that raises the worst by this.
+const ENOUGH: f64 = 0.005;
 
 /// How often curves are given up.
 const ROUNDS: usize = 8;
@@ -39,27 +51,31 @@ const RINGS: usize = 3;
 const SMOOTHING: OptimizeOptions =
     OptimizeOptions { target: 0.65, untangle_sweeps: 0, courses: 4, smooth_sweeps: 6, worst_sweeps: 12 };
 
-/// Mends what can be mended. Returns the number of sweeps.
+/// Mends what can be mended; nodes leave the solid by no more than `max_distance`. Returns the number of sweeps.
 pub(super) fn soften(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
-    holds: &[Hold],
+    holds: &mut [Hold],
     solid: &SolidModel,
+    max_distance: f64,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    let (mut sweeps, mut was_last) = (0, false);
+    let is_undrawn = is_undrawn(solid);
+    let (mut sweeps, mut worst, mut was_last) = (0, 0.0, false);
     for round in 0..ROUNDS {
         let part = |from: usize| from as f64 / ROUNDS as f64;
         monitor.checkpoint(FITTING, part(round))?;
-        let low = parallel::filter(mesh.hexes.len(), |h| {
-            scaled_jacobian(&mesh.hexes[h].map(|n| mesh.positions[n.index()])) < POOR
+        let jacobians = parallel::collect(mesh.hexes.len(), |h| {
+            scaled_jacobian(&mesh.hexes[h].map(|n| mesh.positions[n.index()]))
         });
+        let low = parallel::filter(jacobians.len(), |h| jacobians[h] < POOR);
+        let before = std::mem::replace(&mut worst, jacobians.into_iter().fold(1.0, f64::min));
         let at_hex = |&h: &u32| {
             let hex = &mesh.hexes[h as usize];
             least_missed(hex, mean_edge(&hex.map(|n| mesh.positions[n.index()])), on, solid)
         };
         let curves: BTreeSet<CurveId> = low.iter().filter_map(at_hex).collect();
-        if low.is_empty() || was_last {
+        if low.is_empty() || was_last && worst < before + ENOUGH {
             break;
         }
         was_last = curves.is_empty();
@@ -67,18 +83,47 @@ pub(super) fn soften(
             on.give_up(solid, curve, Reason::Costly);
         }
         let near = around(mesh, &low);
-        // Nodes that are off the solid would drift.
-        let moves = |n: NodeId| near[n.index()] && holds[n.index()] != Hold::Drawn;
-        let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
+        let mut problem = Problem::within(&mesh.positions, &mesh.hexes, |n| near[n.index()], monitor)?;
         problem.order_by(4, |n| on.anchors[n.index()].freedom());
-        let reduction = on.reduction.clone();
-        let target = OnSolid::new(solid, &reduction);
-        let guide = Holds::of(&target, &on.anchors, holds.to_vec());
+        let target = OnSolid::new(solid, &on.reduction);
+        let mut guide = Holds::kept(&target, &on.anchors, holds, &mesh.positions);
+        let leaving = leaving(mesh, on, holds, &low, is_undrawn);
+        for &n in &leaving {
+            let length = max_distance.min(LEAVE * problem.edge(problem.local(n)));
+            guide.leash(n, length.max(guide.leashes.get(&n).copied().unwrap_or(0.0)));
+        }
         let part = Part { whole: monitor, stage: FITTING, range: [part(round), part(round + 1)] };
         sweeps += smooth(&mut problem, &guide, &SMOOTHING, &part)?;
         problem.write_back(&mut mesh.positions);
+        for n in leaving {
+            let place = mesh.positions[n.index()];
+            if target.foot(on.anchors[n.index()], place).is_some_and(|foot| foot.point != place) {
+                holds[n.index()] = Hold::Drawn;
+            }
+        }
     }
     Ok(sweeps)
+}
+
+/// The nodes of these hexes that are off the solid, and of what nobody drew those that belong on curves and corners.
+fn leaving(
+    mesh: &HexMesh,
+    on: &Correspondence,
+    holds: &[Hold],
+    hexes: &[u32],
+    is_undrawn: bool,
+) -> BTreeSet<NodeId> {
+    let is_featured = |n: NodeId| matches!(on.anchors[n.index()], Anchor::Curve(_) | Anchor::Corner(_));
+    let leaves = |&n: &NodeId| holds[n.index()] == Hold::Drawn || is_undrawn && is_featured(n);
+    hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).filter(leaves).collect()
+}
+
+/// Is nearly all of the solid's surface general? Then nobody drew its curves.
+fn is_undrawn(solid: &SolidModel) -> bool {
+    let area = |of: &dyn Fn(&Surface) -> bool| -> f64 {
+        solid.surfaces().iter().filter(|surface| of(surface)).map(|surface| surface.area).sum()
+    };
+    area(&|surface| surface.class == SurfaceClass::General) > UNDRAWN * area(&|_| true)
 }
 
 /// The mean length of a hex's edges.
@@ -154,8 +199,9 @@ mod tests {
         let curves = solid.curves().len();
         assert_eq!(on.reduction.count(CurveFate::Captured), curves);
         let hold = |anchor: &Anchor| if *anchor == Anchor::Inside { Hold::Free } else { Hold::Held };
-        let holds: Vec<Hold> = on.anchors.iter().map(hold).collect();
-        assert_eq!(soften(&mut mesh, &mut on, &holds, &solid, &Silent), Ok(0));
+        let mut holds: Vec<Hold> = on.anchors.iter().map(hold).collect();
+        let unbounded = f64::INFINITY;
+        assert_eq!(soften(&mut mesh, &mut on, &mut holds, &solid, unbounded, &Silent), Ok(0));
         let worst = |mesh: &HexMesh| {
             let jacobian = |hex: &[NodeId; 8]| scaled_jacobian(&hex.map(|n| mesh.positions[n.index()]));
             mesh.hexes.iter().map(jacobian).fold(1.0, f64::min)
@@ -166,7 +212,7 @@ mod tests {
             .min_by(|&a, &b| mesh.positions[a].distance(top).total_cmp(&mesh.positions[b].distance(top)));
         mesh.positions[below.unwrap()] += Point::X * 0.32;
         assert!((0.0..POOR).contains(&worst(&mesh)));
-        assert!(soften(&mut mesh, &mut on, &holds, &solid, &Silent).unwrap() > 0);
+        assert!(soften(&mut mesh, &mut on, &mut holds, &solid, unbounded, &Silent).unwrap() > 0);
         assert!(worst(&mesh) > POOR);
         assert_eq!(on.reduction.count(CurveFate::Captured), curves);
     }

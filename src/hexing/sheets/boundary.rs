@@ -48,6 +48,14 @@ impl Boundary {
         hex_of(self.sides[quad as usize]).index()
     }
 
+    /// The hexes that have the quads, ascending, each once.
+    pub(super) fn hexes(&self, quads: impl IntoIterator<Item = u32>) -> Vec<u32> {
+        let mut hexes: Vec<u32> = quads.into_iter().map(|q| self.hex(q) as u32).collect();
+        hexes.sort_unstable();
+        hexes.dedup();
+        hexes
+    }
+
     /// The edges of the quads of which some end is `wanted`.
     pub(super) fn edges(&self, wanted: impl Fn(NodeId) -> bool) -> BoundaryEdges {
         let mut uses: Vec<([NodeId; 2], u32)> = Vec::new();

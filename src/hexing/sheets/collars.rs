@@ -19,11 +19,12 @@
 
 use std::collections::BTreeSet;
 
-use super::super::correspondence::{Anchor, Correspondence};
-use super::boundary::{Boundary, BoundaryEdges};
+use super::super::correspondence::Correspondence;
+use super::boundary::Boundary;
 use super::groups::Groups;
 use super::need::{FlatCorner, Look};
 use super::shrink::{Layer, ShrinkSet, Torn, pillow};
+use super::sides::Sides;
 use crate::mesh::topology::Sets;
 use crate::mesh::{HexMesh, NodeId};
 
@@ -74,10 +75,8 @@ fn pillow_grown(
     mut quads: BTreeSet<u32>,
 ) -> Option<Layer> {
     for _ in 0..=GROWTHS {
-        let mut hexes: Vec<u32> = quads.iter().map(|&q| boundary.hex(q) as u32).collect();
-        hexes.sort_unstable();
-        hexes.dedup();
-        match pillow(mesh, on, boundary, &ShrinkSet::Hexes(&hexes)) {
+        let hexes = boundary.hexes(quads.iter().copied());
+        match pillow(mesh, on, boundary, &ShrinkSet::Hexes { hexes: &hexes, covered: &[] }) {
             Ok(layer) => return Some(layer),
             Err(Torn(nodes)) => {
                 let sides = Sides::of(on, boundary);
@@ -115,43 +114,4 @@ fn touching(sides: &Sides, corners: &[FlatCorner]) -> Vec<BTreeSet<u32>> {
     let mut by_root: Vec<(u32, u32)> = (0u32..).zip(quads).map(|(i, q)| (sets.root(i).0, q)).collect();
     by_root.sort_unstable();
     by_root.chunk_by(|a, b| a.0 == b.0).map(|set| set.iter().map(|&(_, q)| q).collect()).collect()
-}
-
-/// Walks around nodes that stay on one side of the curves.
-struct Sides<'a> {
-    on: &'a Correspondence,
-    boundary: &'a Boundary,
-    edges: BoundaryEdges,
-}
-
-impl<'a> Sides<'a> {
-    fn of(on: &'a Correspondence, boundary: &'a Boundary) -> Self {
-        Self { on, boundary, edges: boundary.edges(|_| true) }
-    }
-
-    /// The quad, and those with it on one side of a smooth curve at a node where there are more than two.
-    fn crowded(&self, quad: u32) -> Vec<u32> {
-        let nodes = self.boundary.quads[quad as usize];
-        let on_curves = nodes.into_iter().filter(|n| matches!(self.on.anchors[n.index()], Anchor::Curve(_)));
-        let crowds = on_curves.map(|n| self.around(quad, n)).filter(|quads| quads.len() > 2);
-        crowds.flatten().chain([quad]).collect()
-    }
-
-    /// The quads at `node` that are reached from `quad` without crossing a curve, itself among them.
-    fn around(&self, quad: u32, node: NodeId) -> Vec<u32> {
-        let mut reached = vec![quad];
-        let mut next = 0;
-        while next < reached.len() {
-            let nodes = self.boundary.quads[reached[next] as usize];
-            let k = nodes.iter().position(|&n| n == node).expect("quads around a node have it");
-            for beside in [nodes[(k + 1) % 4], nodes[(k + 3) % 4]] {
-                if self.on.curve_of(node, beside).is_none() {
-                    let at_edge = self.edges.quads([node, beside]).unwrap_or([quad; 2]);
-                    reached.extend(at_edge.into_iter().filter(|q| !reached.contains(q)).collect::<Vec<_>>());
-                }
-            }
-            next += 1;
-        }
-        reached
-    }
 }

@@ -11,6 +11,9 @@ use crate::solid::{CornerId, CurveId, SolidModel, SurfaceId};
 /// worse.
 const FLAT: f64 = 140.0;
 
+/// Where surfaces meet at a less angle than this, in degrees, two hexes are too thin.
+const THIN: f64 = 75.0;
+
 /// The groups of a solid's surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Groups {
@@ -18,6 +21,8 @@ pub(super) struct Groups {
     of_surface: Vec<u32>,
     /// For each curve: do its sides meet so flatly that no hex may have it for an edge of two boundary quads?
     is_flat: Vec<bool>,
+    /// And so sharply that there is room for one hex alone?
+    is_thin: Vec<bool>,
     /// The corners where a surface has a sector wider than [`FLAT`].
     wide: Vec<(CornerId, SurfaceId)>,
 }
@@ -35,6 +40,7 @@ impl Groups {
         corner: impl Fn(CornerId) -> CornerId,
     ) -> Self {
         let is_flat: Vec<bool> = solid.curves().iter().map(|curve| curve.interior_angle > FLAT).collect();
+        let is_thin = solid.curves().iter().map(|curve| curve.interior_angle < THIN).collect();
         let mut sets = Sets::new(solid.surfaces().len());
         let mut unite = |a: SurfaceId, b: SurfaceId| {
             sets.join(surface(a).0, surface(b).0, false);
@@ -55,7 +61,7 @@ impl Groups {
         }
         wide.sort_unstable();
         let group = |s: usize| sets.root(surface(SurfaceId::new(s)).0).0;
-        Self { of_surface: (0..solid.surfaces().len()).map(group).collect(), is_flat, wide }
+        Self { of_surface: (0..solid.surfaces().len()).map(group).collect(), is_flat, is_thin, wide }
     }
 
     /// The group of a surface.
@@ -71,6 +77,11 @@ impl Groups {
     /// Do the sides of the curve meet flatly?
     pub(super) fn is_flat(&self, curve: CurveId) -> bool {
         self.is_flat[curve.index()]
+    }
+
+    /// Do the sides of the curve leave room for one hex alone?
+    pub(super) fn is_thin(&self, curve: CurveId) -> bool {
+        self.is_thin[curve.index()]
     }
 
     /// Is a quad of the surface flat at a node there, if both of its edges lie on curves?
@@ -146,6 +157,13 @@ fn sectors(solid: &SolidModel) -> Vec<Sector> {
 impl Groups {
     /// Groups as given, all curves between groups sharp and all sectors narrow.
     pub(super) fn given(of_surface: &[u32], is_flat: &[bool]) -> Self {
-        Self { of_surface: of_surface.to_vec(), is_flat: is_flat.to_vec(), wide: Vec::new() }
+        let is_thin = vec![false; is_flat.len()];
+        Self { of_surface: of_surface.to_vec(), is_flat: is_flat.to_vec(), is_thin, wide: Vec::new() }
+    }
+
+    /// The same, where these curves leave room for one hex alone.
+    pub(super) fn with_thin(mut self, curves: &[CurveId]) -> Self {
+        curves.iter().for_each(|curve| self.is_thin[curve.index()] = true);
+        self
     }
 }

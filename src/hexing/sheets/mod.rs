@@ -8,7 +8,9 @@
 //! 2. `need`: a group is covered only where a cell would be flat without.
 //! 3. The smallest group in need first; then all are looked at again, since a sheet can do its neighbours' work, or
 //!    make some.
-//! 4. `collars`: quads that stay flat at a smooth curve are pillowed one by one.
+//! 4. `wedges`: a sheet leaves two hexes at a curve between surfaces of its group. Where these meet so sharply that there
+//!    is room for one alone, a pillow beside the curve makes it one.
+//! 5. `collars`: quads that stay flat at a smooth curve are pillowed one by one.
 //!
 //! All of these are pillows of shrink sets (`shrink`), decided by topology alone. Old nodes stay on the boundary, so that
 //! the correspondence stays true. What cannot be pillowed without a pinch is left as it is and reported.
@@ -20,6 +22,8 @@ mod collars;
 mod groups;
 mod need;
 mod shrink;
+mod sides;
+mod wedges;
 
 use super::correspondence::Correspondence;
 use crate::mesh::{HexMesh, NodeId};
@@ -32,12 +36,14 @@ use shrink::{Layer, ShrinkSet, Torn, pillow};
 
 const SHEETS: Stage = Stage("sheets");
 
-/// The sheets that were inserted, from the first to the last, and what could not be done.
+/// The sheets, wedges and collars that were inserted, from the first to the last, and what could not be done.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SheetReport {
     layers: Vec<Layer>,
     /// Sheets over groups of surfaces.
     pub sheets: usize,
+    /// Pillows beside curves that have room for one hex alone.
+    pub wedges: usize,
     /// Pillows around hexes at smooth curves.
     pub collars: usize,
     /// Hexes that were added.
@@ -49,7 +55,7 @@ pub struct SheetReport {
 }
 
 impl SheetReport {
-    /// How many sheets and collars there are.
+    /// How many sheets, wedges and collars there are.
     pub fn len(&self) -> usize {
         self.layers.len()
     }
@@ -59,7 +65,7 @@ impl SheetReport {
         self.layers.is_empty()
     }
 
-    /// The place of the last sheet or collar that has a part in some of the `hexes` by its hexes or nodes; the last of all
+    /// The place of the last sheet, wedge or collar that has a part in some of the `hexes` by its hexes or nodes; the last of all
     /// if none has. `None` if there are no sheets or no `hexes`.
     pub(super) fn last_with(&self, mesh: &HexMesh, hexes: &[u32]) -> Option<usize> {
         let node = hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).max()?;
@@ -68,21 +74,21 @@ impl SheetReport {
         self.layers.iter().rposition(is_part).or(self.layers.len().checked_sub(1))
     }
 
-    /// Takes the last sheet or collar back; false if there is none. Nodes stay where they are.
+    /// Takes the last sheet, wedge or collar back; false if there is none. Nodes stay where they are.
     pub fn take_back(&mut self, mesh: &mut HexMesh, on: &mut Correspondence) -> bool {
         let Some(layer) = self.layers.pop() else { return false };
         self.hexes -= mesh.hexes.len() - layer.first_hex as usize;
         layer.take_back(mesh, on);
-        if self.layers.len() < self.sheets {
-            self.sheets -= 1
-        } else {
-            self.collars -= 1
+        match self.layers.len() {
+            left if left < self.sheets => self.sheets -= 1,
+            left if left < self.sheets + self.collars => self.collars -= 1,
+            _ => self.wedges -= 1,
         }
         true
     }
 }
 
-/// Inserts the sheets and collars that `mesh` needs on `solid`. New nodes come last, as do new hexes; `on` stays true.
+/// Inserts the sheets, wedges and collars that `mesh` needs on `solid`. New nodes come last, as do new hexes; `on` stays true.
 ///
 /// # Errors
 /// [`Cancelled`] when the monitor says so; sheets inserted before that stay.
@@ -122,6 +128,8 @@ fn insert(
     let collars = collars::insert(mesh, on, &mut boundary, groups);
     report.collars = collars.layers.len();
     report.layers.extend(collars.layers);
+    report.layers.extend(wedges::insert(mesh, on, &mut boundary, groups));
+    report.wedges = report.layers.len() - report.sheets - report.collars;
     report.flat = collars.flat;
     report.hexes = mesh.hexes.len() - before;
     on.faces = boundary.in_order();

@@ -41,9 +41,9 @@ impl<'a> Look<'a> {
         let mut needs = vec![false; self.groups.bound()];
         let mut need = |group: u32| needs[group as usize] = true;
         self.bent_hexes().into_iter().for_each(&mut need);
-        for ([p, q], count) in self.hexes_at_curves() {
-            let groups = [p, q].map(|quad| self.group(quad));
-            if groups[0] != groups[1] && count != 1 {
+        for edge in self.curve_edges() {
+            let groups = edge.quads.map(|quad| self.group(quad));
+            if groups[0] != groups[1] && edge.hexes != 1 {
                 groups.into_iter().for_each(&mut need);
             }
         }
@@ -87,8 +87,8 @@ impl<'a> Look<'a> {
         bent
     }
 
-    /// The two quads at each edge on a curve, and how many hexes it has.
-    fn hexes_at_curves(&self) -> Vec<([u32; 2], u32)> {
+    /// The edges on curves, in the order of `on.edges`; those that have not two quads are left out.
+    pub(super) fn curve_edges(&self) -> Vec<CurveEdge> {
         let mut on_curve = vec![false; self.mesh.positions.len()];
         self.on.edges.iter().for_each(|(ends, _)| ends.iter().for_each(|n| on_curve[n.index()] = true));
         let found = parallel::gather(self.mesh.hexes.len(), |h, found: &mut Vec<u32>| {
@@ -106,8 +106,11 @@ impl<'a> Look<'a> {
         });
         let mut counts = vec![0u32; self.on.edges.len()];
         found.into_iter().for_each(|place| counts[place as usize] += 1);
-        let with_quads = self.on.edges.iter().zip(counts);
-        with_quads.filter_map(|(&(ends, _), count)| Some((self.edges.quads(ends)?, count))).collect()
+        let counted = self.on.edges.iter().zip(counts);
+        let edge = |(&(ends, curve), hexes): (&([NodeId; 2], CurveId), u32)| {
+            Some(CurveEdge { ends, curve, quads: self.edges.quads(ends)?, hexes })
+        };
+        counted.filter_map(edge).collect()
     }
 
     /// Corners of quads that would be flat on the solid, since both edges lie on curves and no corner is between them.
@@ -132,6 +135,16 @@ impl<'a> Look<'a> {
         }
         found
     }
+}
+
+/// An edge on a curve.
+pub(super) struct CurveEdge {
+    /// The lesser node first.
+    pub(super) ends: [NodeId; 2],
+    pub(super) curve: CurveId,
+    pub(super) quads: [u32; 2],
+    /// How many hexes it has.
+    pub(super) hexes: u32,
 }
 
 /// A corner of a quad that would be flat.

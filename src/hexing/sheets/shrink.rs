@@ -18,7 +18,7 @@
 //!    nodes have gone.
 //! 4. Copies, new hexes, boundary quads and curves' edges.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::correspondence::{Anchor, Correspondence};
 use super::boundary::{Boundary, BoundaryEdges, NONE, ascending};
@@ -35,8 +35,8 @@ const THICKNESS: f64 = 0.35;
 pub(super) enum ShrinkSet<'a> {
     /// All hexes from these boundary quads.
     Sheet(&'a [u32]),
-    /// These hexes, ascending, from all others; where they are on the boundary they stay there.
-    Hexes(&'a [u32]),
+    /// These hexes, ascending, from all others. On the boundary they stay, but for the quads that are `covered`.
+    Hexes { hexes: &'a [u32], covered: &'a [u32] },
 }
 
 /// What a pillow added.
@@ -94,16 +94,21 @@ impl Interface {
             ShrinkSet::Sheet(quads) => {
                 let mut open = vec![true; boundary.quads.len()];
                 quads.iter().for_each(|&q| open[q as usize] = false);
-                let faces = quads.iter().map(|&q| boundary.quads[q as usize]).collect();
+                let faces: Vec<[NodeId; 4]> = quads.iter().map(|&q| boundary.quads[q as usize]).collect();
                 (quads.to_vec(), faces, None, open)
             }
-            ShrinkSet::Hexes(hexes) => {
+            ShrinkSet::Hexes { hexes, covered } => {
                 let mut members = vec![false; mesh.hexes.len()];
                 hexes.iter().for_each(|&h| members[h as usize] = true);
-                let open: Vec<bool> =
+                let mut open: Vec<bool> =
                     (0..boundary.quads.len()).map(|q| members[boundary.hex(q as u32)]).collect();
-                let faces = sides_between(mesh, boundary, hexes, &open);
-                (vec![NONE; faces.len()], faces, Some(members), open)
+                covered.iter().for_each(|&q| open[q as usize] = false);
+                let sides = sides_between(mesh, boundary, hexes, &open);
+                let at: BTreeMap<Side, u32> =
+                    covered.iter().map(|&q| (boundary.sides[q as usize], q)).collect();
+                let quads = sides.iter().map(|side| at.get(side).copied().unwrap_or(NONE)).collect();
+                let faces = sides.iter().map(|&side| side_nodes(&mesh.hexes, side)).collect();
+                (quads, faces, Some(members), open)
             }
         };
         let mut nodes: Vec<NodeId> = faces.as_flattened().to_vec();
@@ -167,7 +172,7 @@ impl Interface {
 }
 
 /// The sides of `hexes` that are neither shared by two of them nor `open` boundary quads.
-fn sides_between(mesh: &HexMesh, boundary: &Boundary, hexes: &[u32], open: &[bool]) -> Vec<[NodeId; 4]> {
+fn sides_between(mesh: &HexMesh, boundary: &Boundary, hexes: &[u32], open: &[bool]) -> Vec<Side> {
     let sides = hexes.iter().flat_map(|&h| (6 * h..).take(FACES.len()));
     let mut keyed: Vec<([NodeId; 4], Side)> =
         sides.map(|side| (sorted(side_nodes(&mesh.hexes, side)), side)).collect();
@@ -180,7 +185,7 @@ fn sides_between(mesh: &HexMesh, boundary: &Boundary, hexes: &[u32], open: &[boo
         .map(|shared| shared[0].1)
         .collect();
     single.sort_unstable();
-    single.into_iter().map(|side| side_nodes(&mesh.hexes, side)).collect()
+    single
 }
 
 fn torn_at(mut nodes: Vec<NodeId>) -> Torn {

@@ -3,7 +3,7 @@
 use hexmill::hexing::{Background, HexedSolid, HexingOptions, hex_solid};
 use hexmill::mesh::quality::{Certainty, is_positive, scaled_jacobian};
 use hexmill::mesh::topology::{HexTopology, hex_report};
-use hexmill::mesh::{PolygonMesh, check_hexes};
+use hexmill::mesh::{NodeId, PolygonMesh, check_hexes};
 use hexmill::{Silent, geometry::Point};
 
 use super::csg::random_part;
@@ -49,4 +49,35 @@ fn a_part_whose_kind_no_grid_shows_is_cut_out_of_an_octree() {
     assert_eq!(body.attempts[body.kept.unwrap()].background, Background::Octree);
     assert_eq!(result.euler, result.solid_euler);
     assert_sound(&hexed, "part 95");
+}
+
+/// A ridge of 40 degrees on a plate: its two slopes are covered together with the plate around, and two hexes side by side
+/// along the ridge could have no scaled Jacobian above the sine of 20 degrees.
+#[test]
+fn a_sharp_ridge_has_one_hex() {
+    let base = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
+    let foot = [[3.0, 2.0], [5.0, 2.0], [5.0, 6.0], [3.0, 6.0]];
+    let top = 2.0 + 1.0 / 20f64.to_radians().tan();
+    let mut ridge = PolygonMesh::default();
+    for (ring, z) in [(base, 0.0), (base, 2.0), (foot, 2.0)] {
+        ridge.positions.extend(ring.map(|[x, y]| Point::new(x, y, z)));
+    }
+    ridge.positions.extend([2.0, 6.0].map(|y| Point::new(4.0, y, top)));
+    ridge.push_face([3, 2, 1, 0].map(NodeId));
+    for k in 0..4 {
+        let next = (k + 1) % 4;
+        ridge.push_face([k, next, next + 4, k + 4].map(NodeId));
+        ridge.push_face([k + 4, next + 4, next + 8, k + 8].map(NodeId));
+    }
+    ridge.push_face([9, 10, 13, 12].map(NodeId));
+    ridge.push_face([11, 8, 12, 13].map(NodeId));
+    ridge.push_face([8, 9, 12].map(NodeId));
+    ridge.push_face([10, 11, 13].map(NodeId));
+    let options =
+        HexingOptions { edge_length: 0.5, background: Background::Grid, ..HexingOptions::default() };
+    let hexed = hex_solid(&ridge, &options, &Silent).expect("a mesh");
+    let body = &hexed.report.bodies[0];
+    let kept = body.attempts[body.kept.unwrap()].mesh.as_ref().unwrap();
+    assert!(kept.sheets.wedges > 0 && kept.worst > 0.4, "{:?} {}", kept.sheets, kept.worst);
+    assert_sound(&hexed, "a ridge");
 }

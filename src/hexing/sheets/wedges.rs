@@ -1,0 +1,125 @@
+//! Wedges: curves at which two surfaces of one group meet so sharply that there is room for one hex alone. The sheet over
+//! the group leaves two there.
+//!
+//! ```text
+//!   across the curve v, surface A above and B below:
+//!
+//!   a-------b                a-------b      the two hexes at v draw back from A; they stay on B. What fills the gap over
+//!    \   U   \               |\ new  / \     A is the one hex at v. Behind it, between a and b, there is another, and
+//!  v--+-------m    is         v-----v'--U-m  beside V on B one more
+//!    /   V   /                    \--V---/
+//! ```
+//!
+//! 1. The row: the edges of a thin curve with two hexes. Where the row would end at a curve that is sharp too and has two
+//!    hexes as well, it turns there: a third hex would be as thin.
+//! 2. The hexes at the row draw back from the others, and from the quads on one side of it (`shrink`). The side is that
+//!    with the shorter row, or else the other.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::super::correspondence::Correspondence;
+use super::boundary::{Boundary, ascending};
+use super::groups::Groups;
+use super::need::{CurveEdge, Look};
+use super::shrink::{Layer, ShrinkSet, pillow};
+use super::sides::Sides;
+use crate::mesh::{HexMesh, NodeId};
+use crate::solid::{CurveId, SurfaceId};
+
+/// Pillows the hexes at thin curves.
+pub(super) fn insert(
+    mesh: &mut HexMesh,
+    on: &mut Correspondence,
+    boundary: &mut Boundary,
+    groups: &Groups,
+) -> Vec<Layer> {
+    let thin: BTreeSet<CurveId> =
+        on.edges.iter().map(|&(_, curve)| curve).filter(|&curve| groups.is_thin(curve)).collect();
+    let pillowed = |curve: CurveId| {
+        let rows = rows(curve, &Look::new(mesh, on, boundary, groups));
+        rows.into_iter().find_map(|Row { hexes, covered }| {
+            let set = ShrinkSet::Hexes { hexes: &hexes, covered: &covered };
+            pillow(mesh, on, boundary, &set).ok()
+        })
+    };
+    thin.into_iter().filter_map(pillowed).collect()
+}
+
+/// What draws back, and from which quads.
+struct Row {
+    hexes: Vec<u32>,
+    covered: Vec<u32>,
+}
+
+/// The rows along a curve, one on each of its sides, the shorter one first.
+fn rows(curve: CurveId, look: &Look<'_>) -> Vec<Row> {
+    let edges: BTreeMap<[NodeId; 2], CurveEdge> =
+        look.curve_edges().into_iter().filter(|edge| edge.hexes == 2).map(|edge| (edge.ends, edge)).collect();
+    let along: Vec<&CurveEdge> = edges.values().filter(|edge| edge.curve == curve).collect();
+    let surface = |quad: u32| look.boundary.surface[quad as usize];
+    let mut surfaces: Vec<SurfaceId> = along.iter().flat_map(|edge| edge.quads).map(surface).collect();
+    surfaces.sort_unstable();
+    surfaces.dedup();
+    let sides = Sides::of(look.on, look.boundary);
+    let row = |on: SurfaceId| Walk { look, sides: &sides, edges: &edges, on }.row(&along);
+    let mut rows: Vec<Row> = surfaces.into_iter().filter_map(row).collect();
+    rows.sort_by_key(|row| row.covered.len());
+    rows
+}
+
+/// Follows the border of a surface.
+struct Walk<'a> {
+    look: &'a Look<'a>,
+    sides: &'a Sides<'a>,
+    /// The edges on curves that have two hexes.
+    edges: &'a BTreeMap<[NodeId; 2], CurveEdge>,
+    on: SurfaceId,
+}
+
+impl Walk<'_> {
+    /// The row of all edges that are reached from the given ones. None if both sides of one are the same surface.
+    fn row(&self, from: &[&CurveEdge]) -> Option<Row> {
+        let mut reached: BTreeSet<[NodeId; 2]> = from.iter().map(|edge| edge.ends).collect();
+        let mut next: Vec<[NodeId; 2]> = reached.iter().copied().collect();
+        let (mut covered, mut beside) = (BTreeSet::new(), BTreeSet::new());
+        while let Some(ends) = next.pop() {
+            let edge = &self.edges[&ends];
+            let [inner, outer] = self.quads(edge)?;
+            covered.insert(inner);
+            beside.insert(outer);
+            for node in ends {
+                let around = self.sides.around(inner, node);
+                let Some(ahead) = self.ahead(edge, inner, node, &around) else { continue };
+                // The row goes on: all quads between belong to it.
+                covered.extend(around);
+                beside.extend(self.sides.around(outer, node));
+                if reached.insert(ahead) {
+                    next.push(ahead);
+                }
+            }
+        }
+        let hexes = self.look.boundary.hexes(covered.iter().chain(&beside).copied());
+        Some(Row { hexes, covered: covered.into_iter().collect() })
+    }
+
+    /// The quad of an edge on the surface, and that across.
+    fn quads(&self, edge: &CurveEdge) -> Option<[u32; 2]> {
+        let is_here = |quad: u32| self.look.boundary.surface[quad as usize] == self.on;
+        match edge.quads.map(is_here) {
+            [true, false] => Some(edge.quads),
+            [false, true] => Some([edge.quads[1], edge.quads[0]]),
+            _ => None,
+        }
+    }
+
+    /// The edge on which the row goes on after `node`: of the same curve, or of one that is sharp and ends at the same
+    /// quad.
+    fn ahead(&self, edge: &CurveEdge, quad: u32, node: NodeId, around: &[u32]) -> Option<[NodeId; 2]> {
+        let out = around.iter().flat_map(|&q| self.sides.neighbours(q, node)).map(|n| ascending([node, n]));
+        let other = self
+            .edges
+            .get(&out.into_iter().find(|ends| *ends != edge.ends && self.edges.contains_key(ends))?)?;
+        let is_sharp = || around == [quad] && !self.look.groups.is_flat(other.curve);
+        (other.curve == edge.curve || is_sharp()).then_some(other.ends)
+    }
+}
