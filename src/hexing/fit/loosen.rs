@@ -14,8 +14,9 @@ use crate::optimize::{OptimizeOptions, Problem, smooth};
 use crate::solid::{SolidModel, SurfaceId};
 use crate::{Cancelled, Monitor};
 
-/// How often nodes are drawn to surfaces, and cells smoothed.
+/// How often nodes are drawn to surfaces, and cells smoothed, as long as that brings some of them nearer by this share.
 const ROUNDS: usize = 2;
+const ENOUGH: f64 = 0.02;
 
 /// Draws those nodes to the nearest surface beside, where that does not take the mesh away from where they belong. Returns
 /// the number of sweeps.
@@ -54,13 +55,17 @@ pub(super) fn loosen(
             stage: FITTING,
             range: [from, to].map(|share| (round as f64 + share) / ROUNDS as f64),
         };
-        sweeps += unlock(problem, &mut loose, &[], &marks, &part(0.0, 0.5))?;
+        let unlocked = unlock(problem, &mut loose, &[], &marks, &part(0.0, 0.5))?;
+        sweeps += unlocked.sweeps;
         loose.weight = 0.0;
         // Sliding they would go farther from where they belong.
         let unpinned = loose.holds.clone();
         nodes.iter().for_each(|id| loose.holds[id.index()] = Hold::Pinned);
         sweeps += smooth(problem, &loose, smoothing, &part(0.5, 1.0))?;
         loose.holds = unpinned;
+        if unlocked.gain < ENOUGH {
+            break;
+        }
     }
     holds.holds = loose.holds;
     for &id in &nodes {

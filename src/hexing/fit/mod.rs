@@ -204,7 +204,7 @@ fn fitted(
     sweeps += pull(&mut problem, &mut holds, &chains, &all, &mut awake, course, &part(PULL, UNLOCK[0]))?;
     for from in UNLOCK {
         let stuck = holds.stuck();
-        sweeps += unlock(&mut problem, &mut holds, &chains, &[], &part(from, from + UNLOCKING))?;
+        sweeps += unlock(&mut problem, &mut holds, &chains, &[], &part(from, from + UNLOCKING))?.sweeps;
         holds.weight = 0.0;
         sweeps += smooth(&mut problem, &holds, &options.smoothing, &part(from + UNLOCKING, from + ROUND))?;
         if holds.stuck() == 0 || holds.stuck() >= stuck {

@@ -91,14 +91,15 @@ impl Regions {
         }
     }
 
-    /// Puts everything back as it was in the regions where that was better.
+    /// Puts everything back as it was in the regions where that was better. By how much the best of the others got better,
+    /// as a share of what it lacked.
     pub(super) fn keep_better(
         &self,
         problem: &mut Problem,
         holds: &mut Holds,
         marks: &[Mark],
         before: State,
-    ) {
+    ) -> f64 {
         let now = self.off(problem, holds, marks);
         let mut is_better: Vec<bool> =
             now.iter().zip(&before.off).map(|(now, before)| now < before).collect();
@@ -113,6 +114,8 @@ impl Regions {
             holds.holds[id] = before.holds[id];
         }
         problem.find_positive();
+        let gains = (0..now.len()).filter(|&r| is_better[r]).map(|r| 1.0 - now[r] / before.off[r]);
+        gains.fold(0.0, f64::max)
     }
 
     /// What each region lacks: how far its drawn nodes are off the solid, and the marks off the mesh.

@@ -21,16 +21,23 @@ const ALONG: usize = 2;
 const SWEEPS: usize = 20;
 const FLOOR: f64 = 0.05;
 
-/// Tries to get the drawn nodes onto the solid, so that its `marks` are no farther from the mesh. Returns the number of
-/// sweeps made.
+/// What was done.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Unlocked {
+    pub(super) sweeps: usize,
+    /// By how much that brought some region nearer to the solid, at best, as a share of what it lacked.
+    pub(super) gain: f64,
+}
+
+/// Tries to get the drawn nodes onto the solid, so that its `marks` are no farther from the mesh.
 pub(super) fn unlock(
     problem: &mut Problem,
     holds: &mut Holds,
     chains: &[Chain],
     marks: &[Mark],
     monitor: &dyn Monitor,
-) -> Result<usize, Cancelled> {
-    let mut sweeps = 0;
+) -> Result<Unlocked, Cancelled> {
+    let mut unlocked = Unlocked::default();
     for (k, rings) in RINGS.into_iter().enumerate() {
         let stuck: Vec<u32> = drawn(problem, holds).collect();
         if stuck.is_empty() {
@@ -46,8 +53,8 @@ pub(super) fn unlock(
         let course = Course { stage: FITTING, sweeps: SWEEPS, floor: FLOOR };
         let part =
             Part { whole: monitor, stage: FITTING, range: [k, k + 1].map(|k| k as f64 / RINGS.len() as f64) };
-        sweeps += pull(problem, holds, chains, &regions.moves, &mut awake, course, &part)?;
-        regions.keep_better(problem, holds, marks, before);
+        unlocked.sweeps += pull(problem, holds, chains, &regions.moves, &mut awake, course, &part)?;
+        unlocked.gain = unlocked.gain.max(regions.keep_better(problem, holds, marks, before));
     }
-    Ok(sweeps)
+    Ok(unlocked)
 }
