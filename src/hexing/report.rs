@@ -174,7 +174,7 @@ pub struct SheetCounts {
     pub hexes: usize,
     /// Sheets, wedges and collars that were taken back, since their cells could not be pushed open.
     pub taken_back: usize,
-    /// Nodes at which a sheet that was needed would have been pinched.
+    /// Nodes at which a sheet or wedge that was needed would have been pinched.
     pub pinched: usize,
 }
 

@@ -1,5 +1,6 @@
 //! Raises the mean: cells that are neither poor nor perfect, such as those of transitions between levels, are smoothed
-//! together with the boundary's, whose nodes slide on the solid.
+//! together with the boundary's, whose nodes slide on the solid. Those that are off it come no farther from
+//! where they belong.
 
 use super::super::correspondence::Correspondence;
 use super::holds::{Hold, Holds};
@@ -9,7 +10,7 @@ use crate::optimize::{Problem, even_out};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
-/// Smooths all that is not held. Returns the number of sweeps.
+/// Smooths everything. Returns the number of sweeps.
 pub(super) fn even(
     mesh: &mut HexMesh,
     on: &Correspondence,

@@ -1,7 +1,5 @@
 //! What holds each node while the mesh is fitted: nothing, a pull to its foot on the solid, or the solid itself.
 
-use std::collections::BTreeMap;
-
 use super::super::correspondence::Anchor;
 use super::target::Target;
 use crate::geometry::Point;
@@ -36,8 +34,8 @@ pub(super) struct Holds<'a> {
     pub(super) holds: Vec<Hold>,
     /// Where on its curve a node is drawn, if that is not its foot.
     pub(super) places: Vec<Option<Point>>,
-    /// How long the leashes are, in model units.
-    pub(super) leashes: BTreeMap<NodeId, f64>,
+    /// How long the leashes are, in model units, by node, ascending.
+    leashes: Vec<(NodeId, f64)>,
     /// Of the pull, where lengths are in units of the node's mean edge.
     pub(super) weight: f64,
     /// The share of that for nodes of surfaces.
@@ -58,11 +56,11 @@ impl<'a> Holds<'a> {
 
     /// With the holds given.
     pub(super) fn of(target: &'a dyn Target, anchors: &'a [Anchor], holds: Vec<Hold>) -> Self {
-        let (places, leashes) = (vec![None; holds.len()], BTreeMap::new());
+        let (places, leashes) = (vec![None; holds.len()], Vec::new());
         Self { target, anchors, places, leashes, holds, weight: 0.0, surfaces: 1.0 }
     }
 
-    /// With the holds given, where nodes that are off the solid come no farther from it than they are.
+    /// With the holds given, where nodes that are off the solid, or on leashes, come no farther from their feet than they are.
     pub(super) fn kept(
         target: &'a dyn Target,
         anchors: &'a [Anchor],
@@ -70,17 +68,26 @@ impl<'a> Holds<'a> {
         positions: &[Point],
     ) -> Self {
         let mut kept = Self::of(target, anchors, holds.to_vec());
-        for n in (0..holds.len()).filter(|&n| holds[n] == Hold::Drawn) {
+        for n in (0..holds.len()).filter(|&n| matches!(holds[n], Hold::Drawn | Hold::Leashed)) {
             let foot = target.foot(anchors[n], positions[n]);
             kept.leash(NodeId::new(n), foot.map_or(0.0, |foot| foot.point.distance(positions[n])));
         }
         kept
     }
 
-    /// Keeps a node so near to its foot.
+    /// Keeps a node so near.
     pub(super) fn leash(&mut self, node: NodeId, length: f64) {
         self.holds[node.index()] = Hold::Leashed;
-        self.leashes.insert(node, length);
+        match self.leashes.binary_search_by_key(&node, |&(node, _)| node) {
+            Ok(place) => self.leashes[place].1 = length,
+            Err(place) => self.leashes.insert(place, (node, length)),
+        }
+    }
+
+    /// How long the leash of a node is; 0 where it has none.
+    pub(super) fn leash_of(&self, node: NodeId) -> f64 {
+        let place = self.leashes.binary_search_by_key(&node, |&(node, _)| node);
+        place.map_or(0.0, |place| self.leashes[place].1)
     }
 
     pub(super) fn is(&self, node: NodeId, hold: Hold) -> bool {
@@ -124,10 +131,10 @@ impl Guide for Holds<'_> {
     fn project(&self, node: NodeId, _: Point, p: Point) -> Point {
         match self.holds[node.index()] {
             Hold::Held => self.target.foot(self.anchors[node.index()], p).map_or(p, |foot| foot.point),
-            Hold::Leashed => self
-                .target
-                .foot(self.anchors[node.index()], p)
-                .map_or(p, |foot| foot.point + (p - foot.point).clamp_length_max(self.leashes[&node])),
+            Hold::Leashed => match self.target.foot(self.anchors[node.index()], p) {
+                Some(foot) => foot.point + (p - foot.point).clamp_length_max(self.leash_of(node)),
+                None => p,
+            },
             _ => p,
         }
     }
@@ -180,10 +187,10 @@ mod tests {
         }
         let far = Point::new(1.0, 2.0, 2.5);
         assert_eq!(kept.project(top, far, far), Point::new(1.0, 2.0, 3.5));
-        let away = Point::X * 0.5;
+        let away = Point::new(-0.5, 0.0, 0.0);
         assert_eq!(kept.project(corner, away, away), Point::ZERO);
         kept.leash(corner, 0.25);
-        assert_eq!(kept.project(corner, away, away), Point::X * 0.25);
+        assert_eq!(kept.project(corner, away, away), Point::X * -0.25);
         assert_eq!(kept.tangent(corner, away), Symmetric::IDENTITY);
     }
 }

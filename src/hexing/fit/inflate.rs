@@ -49,7 +49,7 @@ pub(super) fn inflate(
         problem.find_positive();
         for rings in RINGS {
             let folded: Vec<u32> = tangled(&problem).collect();
-            // Without a collar a few cells are flat, without a sheet those of whole surfaces.
+            // Without a collar or wedge a few cells are flat or thin, without a sheet those of whole surfaces.
             if sheets.last_with(mesh, &folded).is_none_or(|layer| layer >= sheets.sheets) {
                 break;
             }

@@ -9,8 +9,9 @@
 //! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: as long
 //!    as fewer nodes are stuck than before, the last two steps are made again, twice at most;
 //! 5. `loosen`: nodes that cannot get to their curve rest on a surface beside it;
-//! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed once more;
-//! 7. `even`: all that is not held is smoothed for the mean;
+//! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed again, for which nodes that are off the
+//!    solid, or on curves that nobody drew, may go a little farther;
+//! 7. `even`: all is smoothed for the mean;
 //! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
@@ -75,6 +76,9 @@ const NEAR: f64 = 0.98;
 /// How much of the work a round of these is, and unlocking alone.
 const ROUND: f64 = 0.2;
 const UNLOCKING: f64 = 0.1;
+
+/// How far nodes may be from where they belong for the sake of cells, in edges, if they are not farther already.
+const LEAVE: f64 = 0.15;
 
 /// Rings of cells around the boundary that are moved at first; others follow where these move far.
 const RINGS: usize = 3;
@@ -240,13 +244,13 @@ fn quality(mesh: &HexMesh) -> (Option<f64>, f64) {
     (jacobians.into_iter().reduce(f64::min), mean)
 }
 
-/// The nodes that are still drawn, the farthest first.
+/// The nodes that are still drawn or have left where they belong, the farthest first.
 fn off(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], target: &dyn Target) -> Vec<OffNode> {
     let mut off = parallel::filter_map(mesh.positions.len(), |n| {
         let place = mesh.positions[n];
         let foot = target.foot(on.anchors[n], place)?;
         let off = OffNode { node: NodeId::new(n), place, distance: foot.point.distance(place) };
-        (holds[n] == Hold::Drawn).then_some(off)
+        matches!(holds[n], Hold::Drawn | Hold::Leashed).then_some(off)
     });
     off.sort_by(|a, b| b.distance.total_cmp(&a.distance).then(a.node.cmp(&b.node)));
     off

@@ -11,7 +11,7 @@ use super::apart::{Apart, Survey, mean_side, samples};
 use super::holds::Hold;
 use super::progress::Part;
 use super::target::{OnSolid, Target};
-use super::{FITTING, quality};
+use super::{FITTING, LEAVE, quality};
 use crate::geometry::Point;
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{
@@ -199,7 +199,17 @@ impl Places<'_> {
         let floor = floor(self.apart.farthest(node) / problem.edge(node)).max(self.worst);
         let before = star.read(from, shape, f64::INFINITY)?.worst;
         let mut least = self.apart.error(problem, node, from, f64::INFINITY)? * (1.0 - GAIN);
-        let is_held = self.holds[problem.nodes[node as usize].index()] == Hold::Held;
+        let id = problem.nodes[node as usize];
+        let from_foot = |p: Point| {
+            let foot = self.target.foot(self.on.anchors[id.index()], p);
+            foot.map_or(0.0, |foot| foot.point.distance(p))
+        };
+        let stays = |to: Point| match self.holds[id.index()] {
+            // Planes go on beyond their surface.
+            Hold::Held => self.apart.is_no_farther(to, from),
+            Hold::Leashed => from_foot(to) <= from_foot(from).max(LEAVE * problem.edge(node)),
+            _ => true,
+        };
         let mut best = None;
         for to in self.places(problem, node, from) {
             let after = star.read(to, shape, f64::INFINITY).map(|reading| reading.worst);
@@ -207,8 +217,7 @@ impl Places<'_> {
             if !after.is_some_and(is_good) || !star.stays_positive(to) {
                 continue;
             }
-            // Planes go on beyond their surface.
-            if is_held && !self.apart.is_no_farther(to, from) {
+            if !stays(to) {
                 continue;
             }
             if let Some(error) = self.apart.error(problem, node, to, least) {

@@ -7,21 +7,21 @@
 //! 2. the cells around are smoothed, with many sweeps, since they are few. Nodes that are off the solid come no farther
 //!    from it;
 //! 3. nodes of poor cells that are off the solid may go a little farther, and on shapes that nobody drew those that belong
-//!    on other curves and corners may leave them.
+//!    on other soft curves, and their corners, may leave them.
 
 use std::collections::BTreeSet;
 
 use super::super::correspondence::{Anchor, Correspondence, CurveFate, Reason};
-use super::FITTING;
 use super::holds::{Hold, Holds};
 use super::progress::Part;
 use super::target::{OnSolid, Target};
+use super::{FITTING, LEAVE};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{OptimizeOptions, Problem, smooth};
-use crate::solid::{CurveId, SolidModel, Surface, SurfaceClass, SurfaceId};
+use crate::solid::{Curve, CurveId, SolidModel, Surface, SurfaceClass, SurfaceId};
 use crate::{Cancelled, Monitor, parallel};
 
 /// Cells whose scaled Jacobian is below this are poor.
@@ -32,11 +32,14 @@ const POOR: f64 = 0.46;
 const SOFT: f64 = 60.0;
 const SMALL: f64 = 0.8;
 
-/// How far nodes may go from where they belong, in edges.
-const LEAVE: f64 = 0.15;
-
-/// Nobody drew a solid with features if this share of its surface is general.
+/// Nobody drew a solid with features if this share of its surface is general, nor a curve of it whose sides meet at an angle
+/// that is nearer to a straight one than this, in degrees, and are general, or smaller than so many edges.
 const UNDRAWN: f64 = 0.9;
+const BENT: f64 = 90.0;
+const NOISE: f64 = 2.0;
+
+/// A node that is nearer to where it belongs than this share of an edge has not left it.
+const THERE: f64 = 1e-6;
 
 /// Where no curve is left, cells are smoothed as long as that raises the worst by this.
 const ENOUGH: f64 = 0.005;
@@ -87,18 +90,22 @@ pub(super) fn soften(
         problem.order_by(4, |n| on.anchors[n.index()].freedom());
         let target = OnSolid::new(solid, &on.reduction);
         let mut guide = Holds::kept(&target, &on.anchors, holds, &mesh.positions);
-        let leaving = leaving(mesh, on, holds, &low, is_undrawn);
+        let leaving = leaving(mesh, on, holds, &low, solid, is_undrawn);
         for &n in &leaving {
-            let length = max_distance.min(LEAVE * problem.edge(problem.local(n)));
-            guide.leash(n, length.max(guide.leashes.get(&n).copied().unwrap_or(0.0)));
+            // The boundary cuts across between its nodes, too.
+            let length = (0.5 * max_distance).min(LEAVE * problem.edge(problem.local(n)));
+            guide.leash(n, length.max(guide.leash_of(n)));
         }
         let part = Part { whole: monitor, stage: FITTING, range: [part(round), part(round + 1)] };
         sweeps += smooth(&mut problem, &guide, &SMOOTHING, &part)?;
         problem.write_back(&mut mesh.positions);
         for n in leaving {
             let place = mesh.positions[n.index()];
-            if target.foot(on.anchors[n.index()], place).is_some_and(|foot| foot.point != place) {
-                holds[n.index()] = Hold::Drawn;
+            let there = THERE * problem.edge(problem.local(n));
+            let foot = target.foot(on.anchors[n.index()], place);
+            let has_left = foot.is_some_and(|foot| foot.point.distance(place) > there);
+            if has_left && holds[n.index()] == Hold::Held {
+                holds[n.index()] = Hold::Leashed;
             }
         }
     }
@@ -111,11 +118,52 @@ fn leaving(
     on: &Correspondence,
     holds: &[Hold],
     hexes: &[u32],
+    solid: &SolidModel,
     is_undrawn: bool,
-) -> BTreeSet<NodeId> {
-    let is_featured = |n: NodeId| matches!(on.anchors[n.index()], Anchor::Curve(_) | Anchor::Corner(_));
-    let leaves = |&n: &NodeId| holds[n.index()] == Hold::Drawn || is_undrawn && is_featured(n);
-    hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).filter(leaves).collect()
+) -> Vec<NodeId> {
+    let mut leaving = Vec::new();
+    for hex in hexes.iter().map(|&h| &mesh.hexes[h as usize]) {
+        let size = mean_edge(&hex.map(|n| mesh.positions[n.index()]));
+        let is_on_noise = |n: NodeId| {
+            let curves = curves_at(n, on, solid);
+            !curves.is_empty() && curves.into_iter().all(|curve| is_noise(solid, curve, size))
+        };
+        let is_off = |n: NodeId| matches!(holds[n.index()], Hold::Drawn | Hold::Leashed);
+        leaving.extend(hex.iter().copied().filter(|&n| is_off(n) || is_undrawn && is_on_noise(n)));
+    }
+    leaving.sort_unstable();
+    leaving.dedup();
+    leaving
+}
+
+/// The curves that a node is on.
+fn curves_at(node: NodeId, on: &Correspondence, solid: &SolidModel) -> Vec<CurveId> {
+    match on.anchors[node.index()] {
+        Anchor::Curve(curve) => vec![curve],
+        Anchor::Corner(corner) => on.curves_at(solid, corner),
+        _ => Vec::new(),
+    }
+}
+
+/// Is it a curve that nobody drew, among hexes with edges of that `size`?
+fn is_noise(solid: &SolidModel, curve: CurveId, size: f64) -> bool {
+    let curve = &solid.curves()[curve.index()];
+    let of_noise = |s: &SurfaceId| is_general(solid, *s) || is_smaller(solid, *s, NOISE * size);
+    from_straight(curve) < BENT && curve.sides.iter().all(of_noise)
+}
+
+/// By how much the sides of a curve meet at another angle than a straight one, in degrees.
+fn from_straight(curve: &Curve) -> f64 {
+    (curve.interior_angle - 180.0).abs()
+}
+
+fn is_general(solid: &SolidModel, surface: SurfaceId) -> bool {
+    solid.surfaces()[surface.index()].class == SurfaceClass::General
+}
+
+/// Is its area less than that of a square with this side?
+fn is_smaller(solid: &SolidModel, surface: SurfaceId, side: f64) -> bool {
+    solid.surfaces()[surface.index()].area < side * side
 }
 
 /// Is nearly all of the solid's surface general? Then nobody drew its curves.
@@ -145,18 +193,14 @@ fn around(mesh: &HexMesh, hexes: &[u32]) -> Vec<bool> {
 
 /// Of the soft curves at a hex with edges of that `size` the one that is missed least, the shortest.
 fn least_missed(hex: &[NodeId; 8], size: f64, on: &Correspondence, solid: &SolidModel) -> Option<CurveId> {
-    let curves = hex.iter().flat_map(|n| match on.anchors[n.index()] {
-        Anchor::Curve(curve) => vec![curve],
-        Anchor::Corner(corner) => on.curves_at(solid, corner),
-        _ => Vec::new(),
-    });
+    let curves = hex.iter().flat_map(|&n| curves_at(n, on, solid));
     let is_soft = |curve: &CurveId| {
         let curve = &solid.curves()[curve.index()];
-        let angle = (curve.interior_angle - 180.0).abs();
         let [a, b] = curve.sides;
-        let is_small = |s: SurfaceId| solid.surfaces()[s.index()].area < SMALL * SMALL * size * size;
-        let is_general = |s: SurfaceId| solid.surfaces()[s.index()].class == SurfaceClass::General;
-        angle < SOFT && (is_general(a) || is_general(b)) && (a == b || is_small(a) || is_small(b))
+        let is_small = |s: SurfaceId| is_smaller(solid, s, SMALL * size);
+        from_straight(curve) < SOFT
+            && (is_general(solid, a) || is_general(solid, b))
+            && (a == b || is_small(a) || is_small(b))
     };
     let kept = curves.filter(|curve| on.reduction.curve(*curve) == CurveFate::Captured).filter(is_soft);
     kept.min_by(|a, b| {

@@ -34,37 +34,25 @@ const GROWTHS: usize = 3;
 /// How often flat corners are looked for.
 const ROUNDS: usize = 4;
 
-/// What came of the flat corners.
-#[derive(Default)]
-pub(super) struct Collars {
-    pub(super) layers: Vec<Layer>,
-    /// Nodes at which corners stay flat.
-    pub(super) flat: Vec<NodeId>,
-}
-
 /// Pillows the hexes of all flat corners.
 pub(super) fn insert(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
     boundary: &mut Boundary,
     groups: &Groups,
-) -> Collars {
-    let mut done = Collars::default();
+) -> Vec<Layer> {
+    let mut layers = Vec::new();
     for _ in 0..ROUNDS {
         let corners = Look::new(mesh, on, boundary, groups).flat_corners();
-        let before = done.layers.len();
+        let before = layers.len();
         for quads in touching(&Sides::of(on, boundary), &corners) {
-            done.layers.extend(pillow_grown(mesh, on, boundary, quads));
+            layers.extend(pillow_grown(mesh, on, boundary, quads));
         }
-        if done.layers.len() == before {
+        if layers.len() == before {
             break;
         }
     }
-    done.flat =
-        Look::new(mesh, on, boundary, groups).flat_corners().iter().map(|corner| corner.node).collect();
-    done.flat.sort_unstable();
-    done.flat.dedup();
-    done
+    layers
 }
 
 /// Pillows the hexes of the quads, with those that are needed to make the set a manifold.

@@ -8,9 +8,9 @@
 //! 2. `need`: a group is covered only where a cell would be flat without.
 //! 3. The smallest group in need first; then all are looked at again, since a sheet can do its neighbours' work, or
 //!    make some.
-//! 4. `wedges`: a sheet leaves two hexes at a curve between surfaces of its group. Where these meet so sharply that there
+//! 4. `collars`: quads that stay flat at a smooth curve are pillowed one by one.
+//! 5. `wedges`: a sheet leaves two hexes at a curve between surfaces of its group. Where these meet so sharply that there
 //!    is room for one alone, a pillow beside the curve makes it one.
-//! 5. `collars`: quads that stay flat at a smooth curve are pillowed one by one.
 //!
 //! All of these are pillows of shrink sets (`shrink`), decided by topology alone. Old nodes stay on the boundary, so that
 //! the correspondence stays true. What cannot be pillowed without a pinch is left as it is and reported.
@@ -48,7 +48,7 @@ pub struct SheetReport {
     pub collars: usize,
     /// Hexes that were added.
     pub hexes: usize,
-    /// Nodes where a sheet that was needed would have been pinched: it was not inserted.
+    /// Nodes where a sheet or wedge that was needed would have been pinched: it was not inserted.
     pub pinched: Vec<NodeId>,
     /// Nodes on smooth curves at which a quad stays flat.
     pub flat: Vec<NodeId>,
@@ -125,12 +125,16 @@ fn insert(
         }
     }
     report.sheets = report.layers.len();
-    let collars = collars::insert(mesh, on, &mut boundary, groups);
-    report.collars = collars.layers.len();
-    report.layers.extend(collars.layers);
-    report.layers.extend(wedges::insert(mesh, on, &mut boundary, groups));
-    report.wedges = report.layers.len() - report.sheets - report.collars;
-    report.flat = collars.flat;
+    report.layers.extend(collars::insert(mesh, on, &mut boundary, groups));
+    report.collars = report.layers.len() - report.sheets;
+    let wedges = wedges::insert(mesh, on, &mut boundary, groups, monitor)?;
+    report.wedges = wedges.layers.len();
+    report.layers.extend(wedges.layers);
+    report.pinched.extend(wedges.torn);
+    let flat = Look::new(mesh, on, &boundary, groups).flat_corners();
+    report.flat = flat.into_iter().map(|corner| corner.node).collect();
+    report.flat.sort_unstable();
+    report.flat.dedup();
     report.hexes = mesh.hexes.len() - before;
     on.faces = boundary.in_order();
     monitor.checkpoint(SHEETS, 1.0)?;

@@ -18,7 +18,7 @@
 //!    nodes have gone.
 //! 4. Copies, new hexes, boundary quads and curves' edges.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::super::correspondence::{Anchor, Correspondence};
 use super::boundary::{Boundary, BoundaryEdges, NONE, ascending};
@@ -104,9 +104,11 @@ impl Interface {
                     (0..boundary.quads.len()).map(|q| members[boundary.hex(q as u32)]).collect();
                 covered.iter().for_each(|&q| open[q as usize] = false);
                 let sides = sides_between(mesh, boundary, hexes, &open);
-                let at: BTreeMap<Side, u32> =
-                    covered.iter().map(|&q| (boundary.sides[q as usize], q)).collect();
-                let quads = sides.iter().map(|side| at.get(side).copied().unwrap_or(NONE)).collect();
+                let mut quads = vec![NONE; sides.len()];
+                for &q in *covered {
+                    let place = sides.binary_search(&boundary.sides[q as usize]);
+                    quads[place.expect("covered quads are the members'")] = q;
+                }
                 let faces = sides.iter().map(|&side| side_nodes(&mesh.hexes, side)).collect();
                 (quads, faces, Some(members), open)
             }

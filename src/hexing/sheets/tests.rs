@@ -216,7 +216,7 @@ fn wedges_between(mut mesh: HexMesh, surfaces: &[u32], flat: impl Fn(Point, Poin
     };
     assert!(hexes_at(&mesh, &on, &boundary).iter().all(|&hexes| hexes == 2));
     let before = (mesh.clone(), on.clone(), euler(&mesh));
-    let layers = wedges::insert(&mut mesh, &mut on, &mut boundary, &groups);
+    let layers = wedges::insert(&mut mesh, &mut on, &mut boundary, &groups, &Silent).unwrap().layers;
     on.faces = boundary.in_order();
     assert_eq!(euler(&mesh), before.2);
     assert_true(&mesh, &on);

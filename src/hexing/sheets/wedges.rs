@@ -15,16 +15,25 @@
 //! 2. The hexes at the row draw back from the others, and from the quads on one side of it (`shrink`). The side is that
 //!    with the shorter row, or else the other.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::super::correspondence::Correspondence;
 use super::boundary::{Boundary, ascending};
 use super::groups::Groups;
 use super::need::{CurveEdge, Look};
-use super::shrink::{Layer, ShrinkSet, pillow};
+use super::shrink::{Layer, ShrinkSet, Torn, pillow};
 use super::sides::Sides;
 use crate::mesh::{HexMesh, NodeId};
 use crate::solid::{CurveId, SurfaceId};
+use crate::{Cancelled, Monitor};
+
+/// What came of the thin curves.
+#[derive(Default)]
+pub(super) struct Wedges {
+    pub(super) layers: Vec<Layer>,
+    /// Nodes at which a row would have been pinched, and was left as it is.
+    pub(super) torn: Vec<NodeId>,
+}
 
 /// Pillows the hexes at thin curves.
 pub(super) fn insert(
@@ -32,17 +41,28 @@ pub(super) fn insert(
     on: &mut Correspondence,
     boundary: &mut Boundary,
     groups: &Groups,
-) -> Vec<Layer> {
-    let thin: BTreeSet<CurveId> =
-        on.edges.iter().map(|&(_, curve)| curve).filter(|&curve| groups.is_thin(curve)).collect();
-    let pillowed = |curve: CurveId| {
-        let rows = rows(curve, &Look::new(mesh, on, boundary, groups));
-        rows.into_iter().find_map(|Row { hexes, covered }| {
-            let set = ShrinkSet::Hexes { hexes: &hexes, covered: &covered };
-            pillow(mesh, on, boundary, &set).ok()
-        })
-    };
-    thin.into_iter().filter_map(pillowed).collect()
+    monitor: &dyn Monitor,
+) -> Result<Wedges, Cancelled> {
+    let edges = Look::new(mesh, on, boundary, groups).curve_edges();
+    let is_thin = |edge: &&CurveEdge| edge.hexes == 2 && groups.is_thin(edge.curve);
+    let thin: BTreeSet<CurveId> = edges.iter().filter(is_thin).map(|edge| edge.curve).collect();
+    let mut wedges = Wedges::default();
+    for curve in thin {
+        monitor.proceed()?;
+        let mut torn = Vec::new();
+        for Row { hexes, covered } in rows(curve, &Look::new(mesh, on, boundary, groups)) {
+            match pillow(mesh, on, boundary, &ShrinkSet::Hexes { hexes: &hexes, covered: &covered }) {
+                Ok(layer) => {
+                    wedges.layers.push(layer);
+                    torn.clear();
+                    break;
+                }
+                Err(Torn(nodes)) => torn = nodes,
+            }
+        }
+        wedges.torn.extend(torn);
+    }
+    Ok(wedges)
 }
 
 /// What draws back, and from which quads.
@@ -53,11 +73,11 @@ struct Row {
 
 /// The rows along a curve, one on each of its sides, the shorter one first.
 fn rows(curve: CurveId, look: &Look<'_>) -> Vec<Row> {
-    let edges: BTreeMap<[NodeId; 2], CurveEdge> =
-        look.curve_edges().into_iter().filter(|edge| edge.hexes == 2).map(|edge| (edge.ends, edge)).collect();
-    let along: Vec<&CurveEdge> = edges.values().filter(|edge| edge.curve == curve).collect();
+    let mut edges = look.curve_edges();
+    edges.retain(|edge| edge.hexes == 2);
+    let along: Vec<usize> = (0..edges.len()).filter(|&e| edges[e].curve == curve).collect();
     let surface = |quad: u32| look.boundary.surface[quad as usize];
-    let mut surfaces: Vec<SurfaceId> = along.iter().flat_map(|edge| edge.quads).map(surface).collect();
+    let mut surfaces: Vec<SurfaceId> = along.iter().flat_map(|&e| edges[e].quads).map(surface).collect();
     surfaces.sort_unstable();
     surfaces.dedup();
     let sides = Sides::of(look.on, look.boundary);
@@ -71,29 +91,30 @@ fn rows(curve: CurveId, look: &Look<'_>) -> Vec<Row> {
 struct Walk<'a> {
     look: &'a Look<'a>,
     sides: &'a Sides<'a>,
-    /// The edges on curves that have two hexes.
-    edges: &'a BTreeMap<[NodeId; 2], CurveEdge>,
+    /// The edges on curves that have two hexes, by their ends.
+    edges: &'a [CurveEdge],
     on: SurfaceId,
 }
 
 impl Walk<'_> {
     /// The row of all edges that are reached from the given ones. None if both sides of one are the same surface.
-    fn row(&self, from: &[&CurveEdge]) -> Option<Row> {
-        let mut reached: BTreeSet<[NodeId; 2]> = from.iter().map(|edge| edge.ends).collect();
-        let mut next: Vec<[NodeId; 2]> = reached.iter().copied().collect();
+    fn row(&self, from: &[usize]) -> Option<Row> {
+        let mut reached = vec![false; self.edges.len()];
+        from.iter().for_each(|&e| reached[e] = true);
+        let mut next = from.to_vec();
         let (mut covered, mut beside) = (BTreeSet::new(), BTreeSet::new());
-        while let Some(ends) = next.pop() {
-            let edge = &self.edges[&ends];
+        while let Some(e) = next.pop() {
+            let edge = &self.edges[e];
             let [inner, outer] = self.quads(edge)?;
             covered.insert(inner);
             beside.insert(outer);
-            for node in ends {
+            for node in edge.ends {
                 let around = self.sides.around(inner, node);
                 let Some(ahead) = self.ahead(edge, inner, node, &around) else { continue };
                 // The row goes on: all quads between belong to it.
                 covered.extend(around);
                 beside.extend(self.sides.around(outer, node));
-                if reached.insert(ahead) {
+                if !std::mem::replace(&mut reached[ahead], true) {
                     next.push(ahead);
                 }
             }
@@ -112,14 +133,15 @@ impl Walk<'_> {
         }
     }
 
-    /// The edge on which the row goes on after `node`: of the same curve, or of one that is sharp and ends at the same
-    /// quad.
-    fn ahead(&self, edge: &CurveEdge, quad: u32, node: NodeId, around: &[u32]) -> Option<[NodeId; 2]> {
-        let out = around.iter().flat_map(|&q| self.sides.neighbours(q, node)).map(|n| ascending([node, n]));
-        let other = self
-            .edges
-            .get(&out.into_iter().find(|ends| *ends != edge.ends && self.edges.contains_key(ends))?)?;
-        let is_sharp = || around == [quad] && !self.look.groups.is_flat(other.curve);
-        (other.curve == edge.curve || is_sharp()).then_some(other.ends)
+    /// The place of the edge on which the row goes on after `node`: of the same curve, or of one that is sharp and ends at
+    /// the same quad.
+    fn ahead(&self, edge: &CurveEdge, quad: u32, node: NodeId, around: &[u32]) -> Option<usize> {
+        let mut out =
+            around.iter().flat_map(|&q| self.sides.neighbours(q, node)).map(|n| ascending([node, n]));
+        let place = |ends: [NodeId; 2]| self.edges.binary_search_by_key(&ends, |edge| edge.ends).ok();
+        let ahead = out.find_map(|ends| place(ends).filter(|_| ends != edge.ends))?;
+        let other = self.edges[ahead].curve;
+        let is_sharp = || around == [quad] && !self.look.groups.is_flat(other);
+        (other == edge.curve || is_sharp()).then_some(ahead)
     }
 }
