@@ -166,6 +166,14 @@ mod tests {
     }
 
     #[test]
+    fn distance_and_a_bad_worst_cell_outweigh_a_little_mean() {
+        let (near, far) = (attempt(2, 0, 0.482, 0.36, 0.926), attempt(2, 0, 0.568, 0.36, 0.942));
+        assert!(is_better(&near, &far, &options()));
+        let (bad, good) = (attempt(2, 0, 0.6, 0.281, 0.949), attempt(2, 0, 0.836, 0.333, 0.967));
+        assert!(is_better(&good, &bad, &options()));
+    }
+
+    #[test]
     fn what_is_within_the_distance_allowed_is_better() {
         let allowed = HexingOptions { max_distance: Some(0.1), ..options() };
         let (near, far) = (attempt(2, 0, 0.09, 0.2, 0.8), attempt(2, 0, 0.11, 0.6, 0.95));

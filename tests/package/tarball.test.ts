@@ -16,8 +16,8 @@ import type { Project } from './project.js';
 /**
  * The most that each module may weigh when compressed, in bytes. Those of hexes and solids are fetched when they are first asked for.
  * That of surfaces is compiled for speed all through: the last tenth of its rate costs a tenth of its size. Those of hexes and of
- * solids hold kernels that look at four hexes side by side, in twice the code and half the time; that
- * of solids also what brings a boundary near to its solid.
+ * solids hold kernels that look at four hexes side by side, in twice the code and half the time; that of
+ * solids also what brings a boundary near to its solid.
  */
 const BUDGETS = {
   mesher: 490_000,

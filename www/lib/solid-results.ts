@@ -141,7 +141,7 @@ export interface SolidAttempt {
   /** The hexes of the background that stand for the body. */
   core: { background: number; cells: number; euler: number; solidEuler: number; volumeRatio: number };
   features: FeatureReport | null;
-  /** Layers of hexes that were put under the boundary where cells would be flat there. */
+  /** Layers of hexes that were put under the boundary where cells would be flat or thin there. */
   sheets?: { sheets: number; wedges: number; collars: number; hexes: number; takenBack: number; pinched: number };
   /** How the nodes came to the solid: those that are not there, and the farthest of them. */
   fit?: { sweeps: number; off: number; farthest: number; place: Vector | null; drawnIn: number };

@@ -1,6 +1,6 @@
 //! Raises the mean: cells that are neither poor nor perfect, such as those of transitions between levels, are smoothed
-//! together with the boundary's, whose nodes slide on the solid. Those that are off it come no farther from
-//! where they belong.
+//! together with the boundary's, whose nodes slide on the solid. Those that are off it come no farther
+//! from where they belong.
 
 use super::super::correspondence::Correspondence;
 use super::holds::{Hold, Holds};

@@ -27,6 +27,13 @@ pub(super) enum Hold {
     Pinned,
 }
 
+impl Hold {
+    /// Is the node not where it belongs?
+    pub(super) fn is_off(self) -> bool {
+        matches!(self, Self::Drawn | Self::Leashed)
+    }
+}
+
 /// The holds of all nodes of a mesh.
 pub(super) struct Holds<'a> {
     pub(super) target: &'a dyn Target,
@@ -68,7 +75,7 @@ impl<'a> Holds<'a> {
         positions: &[Point],
     ) -> Self {
         let mut kept = Self::of(target, anchors, holds.to_vec());
-        for n in (0..holds.len()).filter(|&n| matches!(holds[n], Hold::Drawn | Hold::Leashed)) {
+        for n in (0..holds.len()).filter(|&n| holds[n].is_off()) {
             let foot = target.foot(anchors[n], positions[n]);
             kept.leash(NodeId::new(n), foot.map_or(0.0, |foot| foot.point.distance(positions[n])));
         }

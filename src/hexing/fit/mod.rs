@@ -90,7 +90,7 @@ pub struct FitOptions {
     pub sweeps: usize,
     /// How the cells are smoothed in the end.
     pub smoothing: OptimizeOptions,
-    /// Around poor cells nodes leave the solid by no more than this, in model units.
+    /// How far mesh and solid may be from each other, in model units: around poor cells nodes leave it by half of that at most.
     pub max_distance: f64,
 }
 
@@ -244,13 +244,13 @@ fn quality(mesh: &HexMesh) -> (Option<f64>, f64) {
     (jacobians.into_iter().reduce(f64::min), mean)
 }
 
-/// The nodes that are still drawn or have left where they belong, the farthest first.
+/// The nodes that are not where they belong, the farthest first.
 fn off(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], target: &dyn Target) -> Vec<OffNode> {
     let mut off = parallel::filter_map(mesh.positions.len(), |n| {
         let place = mesh.positions[n];
         let foot = target.foot(on.anchors[n], place)?;
         let off = OffNode { node: NodeId::new(n), place, distance: foot.point.distance(place) };
-        matches!(holds[n], Hold::Drawn | Hold::Leashed).then_some(off)
+        holds[n].is_off().then_some(off)
     });
     off.sort_by(|a, b| b.distance.total_cmp(&a.distance).then(a.node.cmp(&b.node)));
     off

@@ -204,10 +204,11 @@ impl Places<'_> {
             let foot = self.target.foot(self.on.anchors[id.index()], p);
             foot.map_or(0.0, |foot| foot.point.distance(p))
         };
+        let leash = from_foot(from).max(LEAVE * problem.edge(node));
         let stays = |to: Point| match self.holds[id.index()] {
             // Planes go on beyond their surface.
             Hold::Held => self.apart.is_no_farther(to, from),
-            Hold::Leashed => from_foot(to) <= from_foot(from).max(LEAVE * problem.edge(node)),
+            Hold::Leashed => from_foot(to) <= leash,
             _ => true,
         };
         let mut best = None;

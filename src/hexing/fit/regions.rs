@@ -181,7 +181,9 @@ mod tests {
         let regions = Regions::new(&problem, (0..problem.movable()).map(is_near).collect());
         let before = regions.state(&problem, &holds, &[]);
         (problem.points[a].z, problem.points[b].z) = (1.9, 1.4);
-        regions.keep_better(&mut problem, &mut holds, &[], before);
+        let gain = regions.keep_better(&mut problem, &mut holds, &[], before);
+        let lacks = |off: f64| off + SUM * (off + OFF);
+        assert!((gain - (1.0 - lacks(0.1) / lacks(0.5))).abs() < 1e-12, "{gain}");
         assert_eq!((problem.points[a].z, problem.points[b].z), (1.9, 1.5));
     }
 
@@ -206,7 +208,8 @@ mod tests {
             let marks = [Mark { node, place, quads: quads.clone() }];
             let before = regions.state(&problem, &holds, &marks);
             problem.points[node as usize].z = 1.3;
-            regions.keep_better(&mut problem, &mut holds, &marks, before);
+            let gain = regions.keep_better(&mut problem, &mut holds, &marks, before);
+            assert_eq!(gain > 0.0, kept);
             assert_eq!(problem.points[node as usize].z, if kept { 1.3 } else { 1.1 });
         }
     }

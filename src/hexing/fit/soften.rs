@@ -5,7 +5,7 @@
 //!
 //! 1. the curve at each that is missed least is given up: its nodes slide on the surface from now on;
 //! 2. the cells around are smoothed, with many sweeps, since they are few. Nodes that are off the solid come no farther
-//!    from it;
+//!    from where they belong;
 //! 3. nodes of poor cells that are off the solid may go a little farther, and on shapes that nobody drew those that belong
 //!    on other soft curves, and their corners, may leave them.
 
@@ -21,7 +21,7 @@ use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{OptimizeOptions, Problem, smooth};
-use crate::solid::{Curve, CurveId, SolidModel, Surface, SurfaceClass, SurfaceId};
+use crate::solid::{Curve, CurveId, SolidModel, SurfaceClass, SurfaceId};
 use crate::{Cancelled, Monitor, parallel};
 
 /// Cells whose scaled Jacobian is below this are poor.
@@ -54,7 +54,7 @@ const RINGS: usize = 3;
 const SMOOTHING: OptimizeOptions =
     OptimizeOptions { target: 0.65, untangle_sweeps: 0, courses: 4, smooth_sweeps: 6, worst_sweeps: 12 };
 
-/// Mends what can be mended; nodes leave the solid by no more than `max_distance`. Returns the number of sweeps.
+/// Mends what can be mended; nodes leave where they belong by no more than half of `max_distance`. Returns the number of sweeps.
 pub(super) fn soften(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
@@ -128,8 +128,8 @@ fn leaving(
             let curves = curves_at(n, on, solid);
             !curves.is_empty() && curves.into_iter().all(|curve| is_noise(solid, curve, size))
         };
-        let is_off = |n: NodeId| matches!(holds[n.index()], Hold::Drawn | Hold::Leashed);
-        leaving.extend(hex.iter().copied().filter(|&n| is_off(n) || is_undrawn && is_on_noise(n)));
+        let leaves = |&n: &NodeId| holds[n.index()].is_off() || is_undrawn && is_on_noise(n);
+        leaving.extend(hex.iter().copied().filter(leaves));
     }
     leaving.sort_unstable();
     leaving.dedup();
@@ -168,10 +168,10 @@ fn is_smaller(solid: &SolidModel, surface: SurfaceId, side: f64) -> bool {
 
 /// Is nearly all of the solid's surface general? Then nobody drew its curves.
 fn is_undrawn(solid: &SolidModel) -> bool {
-    let area = |of: &dyn Fn(&Surface) -> bool| -> f64 {
-        solid.surfaces().iter().filter(|surface| of(surface)).map(|surface| surface.area).sum()
-    };
-    area(&|surface| surface.class == SurfaceClass::General) > UNDRAWN * area(&|_| true)
+    let area = |s: SurfaceId| solid.surfaces()[s.index()].area;
+    let surfaces = || (0..solid.surfaces().len()).map(SurfaceId::new);
+    let general: f64 = surfaces().filter(|&s| is_general(solid, s)).map(area).sum();
+    general > UNDRAWN * surfaces().map(area).sum::<f64>()
 }
 
 /// The mean length of a hex's edges.

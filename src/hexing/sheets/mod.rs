@@ -36,7 +36,7 @@ use shrink::{Layer, ShrinkSet, Torn, pillow};
 
 const SHEETS: Stage = Stage("sheets");
 
-/// The sheets, wedges and collars that were inserted, from the first to the last, and what could not be done.
+/// The sheets, collars and wedges that were inserted, in this order, and what could not be done.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SheetReport {
     layers: Vec<Layer>,
@@ -65,8 +65,8 @@ impl SheetReport {
         self.layers.is_empty()
     }
 
-    /// The place of the last sheet, wedge or collar that has a part in some of the `hexes` by its hexes or nodes; the last of all
-    /// if none has. `None` if there are no sheets or no `hexes`.
+    /// The place of the last sheet, collar or wedge that has a part in some of the `hexes` by its hexes or nodes; the last
+    /// of all if none has. `None` if there are no sheets or no `hexes`.
     pub(super) fn last_with(&self, mesh: &HexMesh, hexes: &[u32]) -> Option<usize> {
         let node = hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).max()?;
         let hex = hexes.iter().copied().max()?;
@@ -88,7 +88,8 @@ impl SheetReport {
     }
 }
 
-/// Inserts the sheets, wedges and collars that `mesh` needs on `solid`. New nodes come last, as do new hexes; `on` stays true.
+/// Inserts the sheets, collars and wedges that `mesh` needs on `solid`. New nodes come last, as do new hexes; `on` stays
+/// true.
 ///
 /// # Errors
 /// [`Cancelled`] when the monitor says so; sheets inserted before that stay.
