@@ -92,6 +92,9 @@ pub mod hex {
         all
     };
 
+    /// The face that has no corner in common with each face.
+    pub const OPPOSITE_FACE: [u8; 6] = [1, 0, 4, 5, 2, 3];
+
     /// The edges around each face: edge `k` joins corners `k` and `k + 1` of the face.
     pub const EDGES_OF_FACE: [[u8; 4]; 6] = {
         let (mut all, mut f) = ([[NONE; 4]; 6], 0);
@@ -234,6 +237,13 @@ mod tests {
 
     fn differing<const D: usize>(a: [u8; D], b: [u8; D]) -> usize {
         (0..D).filter(|&i| a[i] != b[i]).count()
+    }
+
+    #[test]
+    fn opposite_faces_have_no_corner_in_common() {
+        for (face, &opposite) in hex::FACES.iter().zip(&hex::OPPOSITE_FACE) {
+            assert!(face.iter().all(|corner| !hex::FACES[usize::from(opposite)].contains(corner)));
+        }
     }
 
     /// Is `all` a group of permutations that keep edges, with the identity first?

@@ -4,7 +4,8 @@
 //! 2. What is thinner than cells is made thick enough for them (`thin`).
 //! 3. Which cells are in: a minimum cut (`energy`).
 //! 4. As few changes as may be, so that the boundary is a 2-manifold (`manifold`).
-//! 5. The largest part of each body, without bubbles (`parts`).
+//! 5. Steps are levelled where the solid is smooth (`terraces`).
+//! 6. The largest part of each body, without bubbles (`parts`).
 //!
 //! **Promises.** The core is a conforming mesh, and a manifold with boundary; so its boundary is a closed 2-manifold.
 //! Whether that has the solid's Euler number is reported: features smaller than cells may be lost.
@@ -12,16 +13,18 @@
 mod cells;
 mod distance;
 mod energy;
+mod link;
 mod manifold;
 mod parts;
+mod terraces;
 mod thin;
 
 use serde::Serialize;
 
-use crate::geometry::Point;
+use crate::geometry::{NearestTriangle, Point};
 use crate::mesh::numbering::hex::FACES;
 use crate::mesh::{HexId, HexMesh, NodeId, Volumes};
-use crate::solid::SolidModel;
+use crate::solid::{SolidModel, SurfaceClass};
 use crate::{Cancelled, Monitor, Stage, parallel};
 use cells::{Cells, NONE};
 use distance::Distances;
@@ -38,11 +41,13 @@ pub struct CoreOptions<'a> {
     pub domain: Option<&'a [bool]>,
     /// Keep walls, rods, slots and holes that are thinner than cells, as one layer of these.
     pub keep_thin: bool,
+    /// Level steps where the solid is smooth.
+    pub level: bool,
 }
 
 impl Default for CoreOptions<'_> {
     fn default() -> Self {
-        Self { energy: Energy::default(), domain: None, keep_thin: true }
+        Self { energy: Energy::default(), domain: None, keep_thin: true, level: true }
     }
 }
 
@@ -82,6 +87,8 @@ pub struct CoreReport {
     pub flips: usize,
     /// Rounds of these.
     pub rounds: usize,
+    /// Terraces that were moved, so that the boundary has fewer creases.
+    pub terraces: usize,
     /// Cells removed because they hung together with no body.
     pub crumbs: usize,
     /// Cells added because they were closed in.
@@ -103,6 +110,9 @@ impl CoreReport {
 
 /// Edges: how deep cells are that lie deeper is of no concern.
 const FAR: f64 = 2.0;
+
+/// Edges: cells whose centres are nearer to a curve of the solid are not levelled.
+const AROUND_CURVES: f64 = 1.5;
 
 const CORE: Stage = Stage("core");
 
@@ -143,6 +153,13 @@ pub fn core(
     energy::cut(&cells, &distances, options.energy, &free, |p| solid.nearest(p).point, &mut inside, monitor)?;
     monitor.checkpoint(CORE, 0.7)?;
     let repairs = manifold::make_manifold(&cells, &depth, &mut inside, monitor)?;
+    let terraces = if options.level {
+        let outward = outward_where_smooth(&cells, &distances, solid, options.domain);
+        terraces::level(&cells, &depth, outward, &mut inside, monitor)?
+    } else {
+        0
+    };
+    monitor.checkpoint(CORE, 0.8)?;
     let body = |cell: usize| {
         let foot = solid.nearest(cells.barycentre(cell));
         solid.surfaces()[solid.surface_of(foot.triangle as usize).index()].body
@@ -158,6 +175,7 @@ pub fn core(
         cells: kept.len(),
         flips: repairs.flips,
         rounds: repairs.rounds,
+        terraces,
         crumbs: removed.crumbs.iter().map(Vec::len).sum(),
         bubbles: removed.bubbles.iter().map(Vec::len).sum(),
         euler: boundary_euler(&cells, &inside),
@@ -169,6 +187,30 @@ pub fn core(
     let lost = parts.map(|part| LostPart { centers: centers(part) }).collect();
     monitor.checkpoint(CORE, 1.0)?;
     Ok(Core { mesh, cells: kept.into_iter().map(HexId).collect(), report, lost })
+}
+
+/// The solid's unit normal near a cell that may be levelled: one in the domain, at a surface that is neither a plane nor a
+/// cylinder, away from curves. Where the strips between the curves of planes askew were levelled, cells became worse.
+fn outward_where_smooth<'a>(
+    cells: &'a Cells<'_>,
+    distances: &'a Distances,
+    solid: &'a SolidModel,
+    domain: Option<&'a [bool]>,
+) -> impl Fn(usize) -> Option<Point> + use<'a> {
+    let edges = solid.curves().iter().flat_map(|curve| curve.vertices.windows(2));
+    // As triangles without area.
+    let edges = edges.map(|ends| [ends[0], ends[1], ends[1]].map(|v| solid.points()[v as usize]));
+    let curves = NearestTriangle::new(edges);
+    move |cell| {
+        let center = cells.barycentre(cell);
+        let foot = solid.nearest(center);
+        let surface = &solid.surfaces()[solid.surface_of(foot.triangle as usize).index()];
+        let reach = AROUND_CURVES * distances.edge[cell];
+        let may_change = surface.class == SurfaceClass::General
+            && domain.is_none_or(|domain| domain[cell])
+            && curves.nearest(center).is_none_or(|at| at.point.distance(center) >= reach);
+        may_change.then_some(foot.normal)
+    }
 }
 
 /// The mesh of some cells, ascending, without the nodes of others.
@@ -206,6 +248,9 @@ fn boundary_euler(cells: &Cells<'_>, inside: &[bool]) -> i64 {
     }
     on_boundary.iter().filter(|&&is| is).count() as i64 - faces
 }
+
+#[cfg(test)]
+mod testing;
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests;

@@ -23,10 +23,15 @@ fn turned(mut mesh: PolygonMesh) -> PolygonMesh {
 /// The core of a solid by a grid; checks that it is a mesh and has the solid's Euler number.
 #[track_caller]
 fn core_of(surface: &PolygonMesh, edge_length: f64) -> Core {
+    core_by(surface, edge_length, &CoreOptions::default())
+}
+
+#[track_caller]
+fn core_by(surface: &PolygonMesh, edge_length: f64, options: &CoreOptions<'_>) -> Core {
     let solid = solid(surface);
     let background = grid(&solid, &AlignedGrid::new(edge_length), &Silent).unwrap();
     assert_eq!(check_hexes(&background), []);
-    let core = core(&background, &solid, &CoreOptions::default(), &Silent).unwrap();
+    let core = core(&background, &solid, options, &Silent).unwrap();
     assert_eq!(check_hexes(&core.mesh), []);
     assert_eq!(core.report.euler, core.report.solid_euler, "{:?}", core.report);
     assert_eq!((core.report.cells, core.cells.len()), (core.mesh.hexes.len(), core.mesh.hexes.len()));
@@ -55,9 +60,19 @@ fn round_and_turned_solids_keep_kind_and_volume() {
         (turned(ell()), 0.12),
         (turned(cylinder(48)), 0.15),
     ] {
-        let core = core_of(&surface, edge_length);
-        assert!((core.report.volume_ratio - 1.0).abs() < 0.05, "{:?}", core.report);
+        let cut = core_by(&surface, edge_length, &CoreOptions { level: false, ..CoreOptions::default() });
+        assert!((cut.report.volume_ratio - 1.0).abs() < 0.05, "{:?}", cut.report);
+        core_of(&surface, edge_length);
     }
+}
+
+#[test]
+fn round_solids_are_levelled_and_planes_and_cylinders_are_not() {
+    for surface in [turned(cuboid([3, 2, 1])), cylinder(48), turned(cylinder(48))] {
+        assert_eq!(core_of(&surface, 0.15).report.terraces, 0);
+    }
+    let ball = core_of(&ball(), 0.15);
+    assert!(ball.report.terraces > 10 && ball.report.volume_ratio > 0.9, "{:?}", ball.report);
 }
 
 #[test]
@@ -114,7 +129,8 @@ fn in_refined_domains_the_papers_energy_is_cut() {
     let cells = Cells::of(&background, &Silent).unwrap();
     let domain: Vec<bool> =
         (0..cells.len()).map(|c| solid.signed_distance(cells.barycentre(c)).abs() < 0.25).collect();
-    let options = CoreOptions { energy: Energy::Paper, domain: Some(&domain), keep_thin: false };
+    let options =
+        CoreOptions { energy: Energy::Paper, domain: Some(&domain), keep_thin: false, level: false };
     let core = core(&background, &solid, &options, &Silent).unwrap();
     assert_eq!(check_hexes(&core.mesh), []);
     assert!(

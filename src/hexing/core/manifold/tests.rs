@@ -1,24 +1,8 @@
 use super::super::compact;
+use super::super::testing::{Stop, cubes, noise, refined_cubes};
 use super::*;
 use crate::Silent;
-use crate::geometry::{Aabb, Point};
-use crate::mesh::{GridOptions, HexMesh, check_hexes, hex_grid};
-use crate::refine::hex::{HexOptions, Method, refine_hexes};
-use crate::sizing::{Region, Shape, Target};
-
-/// Cubes of edge 1 from the origin on.
-fn cubes(counts: [u32; 3]) -> HexMesh {
-    let max = Point::from(counts.map(f64::from));
-    let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 10_000 };
-    hex_grid(Aabb { min: Point::ZERO, max }, &options).unwrap()
-}
-
-/// A number from 0 to 1 for each pair of numbers.
-fn noise(a: usize, b: usize) -> f64 {
-    let mixed = (a as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-        ^ (b as u64 + 1).wrapping_mul(0xd1b5_4a32_d192_ed03);
-    (mixed.wrapping_mul(0xff51_afd7_ed55_8ccd) >> 40) as f64 / (1u64 << 24) as f64
-}
+use crate::mesh::check_hexes;
 
 /// Mends a set of cells that lie on their sides as deep as `world` says, and checks what came of it.
 fn mended(cells: &Cells<'_>, is_inside: impl Fn(usize) -> bool, world: usize) {
@@ -64,13 +48,7 @@ fn sets_at_the_boundary_of_the_mesh_become_manifolds_too() {
 
 #[test]
 fn sets_of_cells_of_many_valences_become_manifolds() {
-    let shape = Shape::Sphere { center: Point::new(2.0, 2.0, 1.0), radius: 0.7 };
-    let options = HexOptions {
-        method: Method::Two,
-        regions: vec![Region { shape, target: Target::Level(2) }],
-        ..Default::default()
-    };
-    let mesh = refine_hexes(&cubes([4, 4, 4]), &options, &Silent).unwrap().mesh;
+    let mesh = refined_cubes();
     let cells = Cells::of(&mesh, &Silent).unwrap();
     for world in 0..24 {
         let share = 0.2 + 0.025 * world as f64;
@@ -114,13 +92,6 @@ fn shallow_cells_that_stand_out_or_are_missing_alone_change_sides() {
 
 #[test]
 fn work_stops_when_the_monitor_says_so() {
-    struct Stop;
-    impl Monitor for Stop {
-        fn progress(&self, _: crate::Stage, _: f64) {}
-        fn cancelled(&self) -> bool {
-            true
-        }
-    }
     let mesh = cubes([2, 2, 2]);
     let cells = Cells::of(&mesh, &Silent).unwrap();
     assert_eq!(make_manifold(&cells, &[-1.0; 8], &mut [true; 8], &Stop), Err(Cancelled));
