@@ -128,21 +128,24 @@ fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Optio
         (energy < limit && kept.is_none_or(keeps)).then_some(energy)
     };
     let mut share = if pull.is_some() { 1.0 } else { OVERRELAXATION };
-    let mut best = lowered(at(share), here.value);
+    let mut to = at(share);
+    let mut best = lowered(to, here.value);
     for _ in 1..HALVINGS {
         if best.is_some() {
             break;
         }
         share *= 0.5;
-        best = lowered(at(share), here.value);
+        to = at(share);
+        best = lowered(to, here.value);
     }
     let mut energy = best?;
     // Where a cell has next to no volume the energy is so steep that Newton's steps hardly move.
-    while at(share).distance(from) <= ASLEEP * size {
-        let Some(lower) = lowered(at(2.0 * share), energy) else { break };
-        (share, energy) = (2.0 * share, lower);
+    while to.distance(from) <= ASLEEP * size {
+        share *= 2.0;
+        let farther = at(share);
+        let Some(lower) = lowered(farther, energy) else { break };
+        (to, energy) = (farther, lower);
     }
-    let to = at(share);
     Some(Step { to, far: to.distance(from) > rules.asleep * size })
 }
 
