@@ -2,12 +2,13 @@
 //!
 //! 1. The background of choice, as it is.
 //! 2. Where that is a sweep whose cells are bad, or that is too far from the solid somewhere, a grid instead.
-//! 3. Where the best missed something, or is too far from the solid, cells a level smaller there, as often as the options
-//!    allow, and as long as it helps. Of a core that is not of the solid's kind it is not always known where it differs:
-//!    then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was lost alone.
+//! 3. Where the best missed something that somebody drew, or is too far from the solid, cells a level smaller there, as
+//!    often as the options allow, and as long as it helps. Of a core that is not of the solid's kind it is not always known
+//!    where it differs: then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was
+//!    lost alone.
 //! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
-//! 5. Where the best is still of another kind than the solid, far off it or without half of its features, an octree, and
-//!    3 for that.
+//! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an octree,
+//!    and 3 for that.
 //!
 //! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and how many
 //! times as large as the first another may be is bounded.
@@ -15,7 +16,7 @@
 use super::attempt::{Meshed, attempt, off_euler};
 use super::background::{Background, BackgroundError, Failure, Missed, retry};
 use super::ground::{Plan, Site};
-use super::merit::{Bar, GOOD, captured, distance, is_better, is_far, worst};
+use super::merit::{Bar, captured, distance, is_better, is_far, worst};
 use super::options::{HexingError, HexingOptions};
 use super::report::{AttemptReport, BodyReport, RefusedAttempt};
 use crate::Monitor;
@@ -27,10 +28,8 @@ const SHIFTS: [[f64; 3]; 2] = [[0.5; 3], [0.25, 0.5, 0.75]];
 /// A sweep that is farther from the solid than so many edges does not show some part of it that a grid may show.
 const ASTRAY: f64 = 0.4;
 
-/// What is farther from the solid than so many edges, or shows less than this share of its curves and surfaces, is not
-/// what was asked for: then an octree is tried.
+/// What is farther from the solid than so many edges is not what was asked for: then an octree is tried.
 const OTHER: f64 = 0.4;
-const LEAST: f64 = 0.5;
 
 /// The background of another try has at most so many times the hexes of the first of its kind.
 const GROWTH: f64 = 4.0;
@@ -80,13 +79,13 @@ pub(super) fn mesh_body(
         }
         made => made?,
     }
-    if site.may_be_grid() && !search.is_good(GOOD, ASTRAY * options.edge_length) {
+    if site.may_be_grid() && !search.is_good(ASTRAY * options.edge_length) {
         search.another(site.plan(Background::Grid), search.limit())?;
     }
     search.refine(options.max_hexes)?;
     if search.is_on(Background::Grid) {
         for shift in SHIFTS {
-            if !search.is_good(GOOD, f64::INFINITY) {
+            if !search.is_good(f64::INFINITY) {
                 search.another(Plan { shift, ..site.plan(Background::Grid) }, search.limit())?;
             }
         }
@@ -123,7 +122,9 @@ impl Search<'_> {
             made => made?,
         };
         let number = self.attempts.len();
-        let is_better = self.best_report().is_none_or(|best| is_better(&report, best, self.site.options));
+        let is_better = self
+            .best_report()
+            .is_none_or(|best| is_better(&report, best, self.site.options, self.site.taste));
         self.attempts.push(report);
         if let Some(meshed) = meshed.filter(|_| is_better) {
             self.best = Some(Best { meshed, number, plan });
@@ -244,15 +245,15 @@ impl Search<'_> {
         self.best_report().is_none_or(|best| {
             off_euler(&best.core) > 0
                 || distance(best) > OTHER * self.site.options.edge_length
-                || captured(best.features.as_ref()) < LEAST
+                || captured(best.features.as_ref()) < self.site.taste.shown
         })
     }
 
-    /// Is there nothing that another try could mend, where the worst cell may be so bad, and the mesh so far off?
-    fn is_good(&self, least: f64, farthest: f64) -> bool {
+    /// Is there nothing that another try could mend, where the mesh may be so far off?
+    fn is_good(&self, farthest: f64) -> bool {
         self.best_report().is_some_and(|best| {
             let is_near = !is_far(best, self.site.options) && distance(best) <= farthest;
-            off_euler(&best.core) == 0 && is_near && worst(best) >= least
+            off_euler(&best.core) == 0 && is_near && worst(best) >= self.site.taste.good
         })
     }
 

@@ -7,6 +7,7 @@ use super::background::{
     may_sweep, octree, refined,
 };
 use super::direction::{DirectionScore, best_frame, principal_directions};
+use super::merit::Taste;
 use super::options::HexingOptions;
 use crate::Monitor;
 use crate::sizing::{Region, Target};
@@ -17,6 +18,7 @@ pub(super) struct Site<'a> {
     pub(super) solid: &'a SolidModel,
     pub(super) options: &'a HexingOptions,
     pub(super) choice: Choice,
+    pub(super) taste: Taste,
     /// The candidates for the principal direction, the best first; none where nobody asked.
     pub(super) directions: Vec<DirectionScore>,
     axes: DMat3,
@@ -57,7 +59,7 @@ impl<'a> Site<'a> {
             worst_quad: sweep.worst_quad(),
         });
         let choice = choose(solid, axes, options.background, score, options.curvature.is_some());
-        Ok(Self { solid, options, choice, directions, axes, sweep })
+        Ok(Self { solid, options, choice, taste: Taste::of(solid), directions, axes, sweep })
     }
 
     /// Was it a choice not to take a grid?

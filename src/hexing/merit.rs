@@ -7,22 +7,47 @@
 //! | what | as |
 //! |---|---|
 //! | how far mesh and solid are from each other | edges, twice |
-//! | curves and surfaces that are lost | share of all |
+//! | curves and surfaces that are lost | share of all; half of it on free forms |
 //! | the mean scaled Jacobian | what it lacks to 1, four times, and to [`FAIR`], ten times |
-//! | the least scaled Jacobian | what it lacks to [`GOOD`], as a share of that, twice |
+//! | the least scaled Jacobian | what it lacks to a good one, as a share of that, twice, and [`FAULT`] if it lacks anything |
 
 use std::cmp::Ordering;
 
 use super::attempt::off_euler;
 use super::options::HexingOptions;
 use super::report::{AttemptReport, FeatureReport};
+use crate::solid::SolidModel;
 
-/// A least scaled Jacobian with which there is nothing to mend.
-pub(super) const GOOD: f64 = 0.35;
+/// What is asked of the mesh of a solid of some kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Taste {
+    /// A least scaled Jacobian with which there is nothing to mend.
+    pub(super) good: f64,
+    /// What the share of the curves and surfaces that are lost weighs.
+    lost: f64,
+    /// What shows less than this share of the curves and surfaces is not what was asked for.
+    pub(super) shown: f64,
+}
+
+impl Taste {
+    /// For solids that somebody drew.
+    const DRAWN: Self = Self { good: 0.35, lost: 1.0, shown: 0.5 };
+
+    /// For free forms: nobody drew their curves, and nothing tells cells where to be poor.
+    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, shown: 0.0 };
+
+    /// For this solid.
+    pub(super) fn of(solid: &SolidModel) -> Self {
+        if solid.is_free_form() { Self::FREE_FORM } else { Self::DRAWN }
+    }
+}
 
 /// What the distance weighs, and a lack of the least scaled Jacobian.
 const APART: f64 = 2.0;
 const WORST: f64 = 2.0;
+
+/// What it weighs that the least scaled Jacobian is no good one, however little it lacks.
+const FAULT: f64 = 0.25;
 
 /// What a lack of mean scaled Jacobian weighs.
 const MEAN: f64 = 4.0;
@@ -89,20 +114,22 @@ pub(super) fn distance(report: &AttemptReport) -> f64 {
 }
 
 /// Is `a` better than `b`? One without a mesh is better than none.
-pub(super) fn is_better(a: &AttemptReport, b: &AttemptReport, options: &HexingOptions) -> bool {
+pub(super) fn is_better(a: &AttemptReport, b: &AttemptReport, options: &HexingOptions, taste: Taste) -> bool {
     let first = |report: &AttemptReport| (off_euler(&report.core), is_far(report, options));
-    let order = first(a).cmp(&first(b)).then(cost(a, options).total_cmp(&cost(b, options)));
+    let cost = |report: &AttemptReport| cost(report, options, taste);
+    let order = first(a).cmp(&first(b)).then(cost(a).total_cmp(&cost(b)));
     order == Ordering::Less
 }
 
-fn cost(report: &AttemptReport, options: &HexingOptions) -> f64 {
+fn cost(report: &AttemptReport, options: &HexingOptions, taste: Taste) -> f64 {
     let Some(mesh) = &report.mesh else { return f64::INFINITY };
-    let lacking = (GOOD - mesh.worst).max(0.0) / GOOD;
+    let lacking = (taste.good - mesh.worst).max(0.0) / taste.good;
     APART * distance(report) / options.edge_length
-        + lost(report.features.as_ref())
+        + taste.lost * lost(report.features.as_ref())
         + MEAN * (1.0 - mesh.mean)
         + UNFAIR * (FAIR - mesh.mean).max(0.0)
         + WORST * lacking
+        + if lacking > 0.0 { FAULT } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -146,38 +173,56 @@ mod tests {
     #[test]
     fn the_right_euler_number_comes_first() {
         let right = attempt(2, 9, 1.0, 0.1, 0.7);
-        assert!(is_better(&right, &attempt(0, 0, 0.0, 0.9, 0.99), &options()));
-        assert!(!is_better(&attempt(0, 0, 0.0, 0.9, 0.99), &right, &options()));
+        assert!(is_better(&right, &attempt(0, 0, 0.0, 0.9, 0.99), &options(), Taste::DRAWN));
+        assert!(!is_better(&attempt(0, 0, 0.0, 0.9, 0.99), &right, &options(), Taste::DRAWN));
     }
 
     #[test]
     fn one_small_feature_does_not_outweigh_a_far_worse_mesh() {
         let (lost_one, all_kept) = (attempt(2, 1, 0.9, 0.44, 0.93), attempt(2, 0, 2.9, 0.4, 0.87));
-        assert!(is_better(&lost_one, &all_kept, &options()));
+        assert!(is_better(&lost_one, &all_kept, &options(), Taste::DRAWN));
         // Of two that are alike else it does count.
-        assert!(is_better(&attempt(2, 0, 0.9, 0.44, 0.93), &lost_one, &options()));
+        assert!(is_better(&attempt(2, 0, 0.9, 0.44, 0.93), &lost_one, &options(), Taste::DRAWN));
     }
 
     #[test]
     fn a_few_more_features_are_not_worth_a_poor_mean() {
         let (fewer, more) = (attempt(2, 27, 1.0, 0.345, 0.865), attempt(2, 3, 0.85, 0.335, 0.8));
-        assert!(is_better(&fewer, &more, &options()));
-        assert!(is_better(&attempt(2, 3, 0.85, 0.335, 0.85), &fewer, &options()));
+        assert!(is_better(&fewer, &more, &options(), Taste::DRAWN));
+        assert!(is_better(&attempt(2, 3, 0.85, 0.335, 0.85), &fewer, &options(), Taste::DRAWN));
     }
 
     #[test]
     fn distance_and_a_bad_worst_cell_outweigh_a_little_mean() {
         let (near, far) = (attempt(2, 0, 0.482, 0.36, 0.926), attempt(2, 0, 0.568, 0.36, 0.942));
-        assert!(is_better(&near, &far, &options()));
+        assert!(is_better(&near, &far, &options(), Taste::DRAWN));
         let (bad, good) = (attempt(2, 0, 0.6, 0.281, 0.949), attempt(2, 0, 0.836, 0.333, 0.967));
-        assert!(is_better(&good, &bad, &options()));
+        assert!(is_better(&good, &bad, &options(), Taste::DRAWN));
+    }
+
+    #[test]
+    fn a_good_worst_cell_is_worth_some_distance() {
+        let (good, near) = (attempt(2, 0, 0.5, 0.351, 0.95), attempt(2, 0, 0.3, 0.349, 0.95));
+        assert!(is_better(&good, &near, &options(), Taste::DRAWN));
+        assert!(is_better(&near, &attempt(2, 0, 0.6, 0.351, 0.95), &options(), Taste::DRAWN));
+    }
+
+    /// Of two attempts on the bunny one had more creases of the scan, and poorer cells.
+    #[test]
+    fn creases_of_free_forms_weigh_less_than_cells() {
+        let (good, creased) = (attempt(2, 23, 0.718, 0.45, 0.895), attempt(2, 13, 0.768, 0.443, 0.893));
+        assert!(is_better(&good, &creased, &options(), Taste::FREE_FORM));
+        assert!(is_better(&creased, &good, &options(), Taste::DRAWN));
     }
 
     #[test]
     fn what_is_within_the_distance_allowed_is_better() {
         let allowed = HexingOptions { max_distance: Some(0.1), ..options() };
         let (near, far) = (attempt(2, 0, 0.09, 0.2, 0.8), attempt(2, 0, 0.11, 0.6, 0.95));
-        assert!(is_better(&near, &far, &allowed) && is_better(&far, &near, &options()));
+        assert!(
+            is_better(&near, &far, &allowed, Taste::DRAWN)
+                && is_better(&far, &near, &options(), Taste::DRAWN)
+        );
     }
 
     #[test]

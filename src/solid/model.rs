@@ -2,7 +2,7 @@
 
 use super::crossing::{Crossing, crossings};
 use super::curves::{CurveGraph, curve_graph};
-use super::entities::{Corner, Curve, CurveId, Surface, SurfaceId};
+use super::entities::{Corner, Curve, CurveId, Surface, SurfaceClass, SurfaceId};
 use super::error::SolidError;
 use super::features::{drop_noise, sharp_edges};
 use super::import::{Imported, import};
@@ -13,6 +13,9 @@ use super::surfaces::{flood, surfaces};
 use crate::geometry::{Aabb, Point, area_vector};
 use crate::mesh::{FaceId, PolygonMesh};
 use crate::{Cancelled, Monitor, Stage, parallel};
+
+/// More than this share of the boundary of a free form is neither planar nor cylindrical.
+const FREE_FORM: f64 = 0.9;
 
 /// A solid by its boundary: a closed surface of triangles that look outward, in surfaces that meet at curves, which meet
 /// at corners. There may be several disjoint bodies, and voids within them.
@@ -37,6 +40,8 @@ struct Parts {
     shell: Shell,
     /// For each half-edge whether it is part of a curve.
     is_feature: Vec<bool>,
+    /// For each half-edge whether that is so because tags meet there.
+    tagged: Vec<bool>,
     /// The body of each triangle.
     body_of: Vec<u32>,
     /// Degrees: where a curve turns by more it has a corner.
@@ -70,7 +75,7 @@ impl SolidModel {
             report.noise_edges = drop_noise(&shell, &mut is_feature, &tagged, length);
         }
         monitor.checkpoint(Self::STAGE, 0.7)?;
-        let parts = Parts { shell, is_feature, body_of, corner_angle: options.corner_angle };
+        let parts = Parts { shell, is_feature, tagged, body_of, corner_angle: options.corner_angle };
         let solid = Self::of_parts(parts, monitor)?;
         monitor.checkpoint(Self::STAGE, 1.0)?;
         solid.count(&mut report);
@@ -115,11 +120,13 @@ impl SolidModel {
     /// # Errors
     /// If the monitor stops it.
     pub fn body(&self, body: u32, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let Parts { shell, is_feature, body_of, corner_angle } = &self.parts;
+        let Parts { shell, is_feature, tagged, body_of, corner_angle } = &self.parts;
         let kept: Vec<usize> = (0..body_of.len()).filter(|&t| body_of[t] == body).collect();
         let part = shell.part(&kept);
+        let of_part = |flags: &[bool]| kept.iter().flat_map(|&t| flags[3 * t..3 * t + 3].to_vec()).collect();
         let parts = Parts {
-            is_feature: kept.iter().flat_map(|&t| is_feature[3 * t..3 * t + 3].iter().copied()).collect(),
+            is_feature: of_part(is_feature),
+            tagged: of_part(tagged),
             body_of: vec![0; kept.len()],
             shell: part,
             corner_angle: *corner_angle,
@@ -220,6 +227,13 @@ impl SolidModel {
     /// The area of the boundary.
     pub fn area(&self) -> f64 {
         self.surfaces.iter().map(|s| s.area).sum()
+    }
+
+    /// Is nearly all of its boundary neither planar nor cylindrical, without a curve that tags tell? Then nobody drew its
+    /// curves: they are creases of a scan, or of an organic shape.
+    pub fn is_free_form(&self) -> bool {
+        let general = self.surfaces.iter().filter(|s| s.class == SurfaceClass::General).map(|s| s.area);
+        general.sum::<f64>() > FREE_FORM * self.area() && !self.parts.tagged.contains(&true)
     }
 
     /// The point of the boundary nearest to `p`.

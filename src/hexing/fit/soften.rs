@@ -6,8 +6,8 @@
 //! 1. the curve at each that is missed least is given up: its nodes slide on the surface from now on;
 //! 2. the cells around are smoothed, with many sweeps, since they are few. Nodes that are off the solid come no farther
 //!    from where they belong;
-//! 3. nodes of poor cells that are off the solid may go a little farther, and on shapes that nobody drew those that belong
-//!    on other soft curves, and their corners, may leave them.
+//! 3. nodes of poor cells that are off the solid may go a little farther, and on free forms those that belong on other soft
+//!    curves, and their corners, may leave them.
 
 use std::collections::BTreeSet;
 
@@ -32,9 +32,8 @@ const POOR: f64 = 0.46;
 const SOFT: f64 = 60.0;
 const SMALL: f64 = 0.8;
 
-/// Nobody drew a solid with features if this share of its surface is general, nor a curve of it whose sides meet at an angle
-/// that is nearer to a straight one than this, in degrees, and are general, or smaller than so many edges.
-const UNDRAWN: f64 = 0.9;
+/// Nobody drew a curve of a free form whose sides meet at an angle that is nearer to a straight one than this, in degrees,
+/// and are general, or smaller than so many edges.
 const BENT: f64 = 90.0;
 const NOISE: f64 = 2.0;
 
@@ -63,7 +62,7 @@ pub(super) fn soften(
     max_distance: f64,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    let is_undrawn = is_undrawn(solid);
+    let is_free_form = solid.is_free_form();
     let (mut sweeps, mut worst, mut was_last) = (0, 0.0, false);
     for round in 0..ROUNDS {
         let part = |from: usize| from as f64 / ROUNDS as f64;
@@ -90,7 +89,7 @@ pub(super) fn soften(
         problem.order_by(4, |n| on.anchors[n.index()].freedom());
         let target = OnSolid::new(solid, &on.reduction);
         let mut guide = Holds::kept(&target, &on.anchors, holds, &mesh.positions);
-        let leaving = leaving(mesh, on, holds, &low, solid, is_undrawn);
+        let leaving = leaving(mesh, on, holds, &low, solid, is_free_form);
         for &n in &leaving {
             // The boundary cuts across between its nodes, too.
             let length = (0.5 * max_distance).min(LEAVE * problem.edge(problem.local(n)));
@@ -119,7 +118,7 @@ fn leaving(
     holds: &[Hold],
     hexes: &[u32],
     solid: &SolidModel,
-    is_undrawn: bool,
+    is_free_form: bool,
 ) -> Vec<NodeId> {
     let mut leaving = Vec::new();
     for hex in hexes.iter().map(|&h| &mesh.hexes[h as usize]) {
@@ -128,7 +127,7 @@ fn leaving(
             let curves = curves_at(n, on, solid);
             !curves.is_empty() && curves.into_iter().all(|curve| is_noise(solid, curve, size))
         };
-        let leaves = |&n: &NodeId| holds[n.index()].is_off() || is_undrawn && is_on_noise(n);
+        let leaves = |&n: &NodeId| holds[n.index()].is_off() || is_free_form && is_on_noise(n);
         leaving.extend(hex.iter().copied().filter(leaves));
     }
     leaving.sort_unstable();
@@ -164,14 +163,6 @@ fn is_general(solid: &SolidModel, surface: SurfaceId) -> bool {
 /// Is its area less than that of a square with this side?
 fn is_smaller(solid: &SolidModel, surface: SurfaceId, side: f64) -> bool {
     solid.surfaces()[surface.index()].area < side * side
-}
-
-/// Is nearly all of the solid's surface general? Then nobody drew its curves.
-fn is_undrawn(solid: &SolidModel) -> bool {
-    let area = |s: SurfaceId| solid.surfaces()[s.index()].area;
-    let surfaces = || (0..solid.surfaces().len()).map(SurfaceId::new);
-    let general: f64 = surfaces().filter(|&s| is_general(solid, s)).map(area).sum();
-    general > UNDRAWN * surfaces().map(area).sum::<f64>()
 }
 
 /// The mean length of a hex's edges.

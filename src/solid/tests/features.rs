@@ -82,3 +82,21 @@ fn classes_do_not_depend_on_how_finely_a_surface_is_cut() {
     let mantle = cone.surfaces().iter().max_by(|a, b| a.area.total_cmp(&b.area)).unwrap();
     assert_eq!(mantle.class, SurfaceClass::General);
 }
+
+#[test]
+fn free_forms_have_no_planes_and_no_curves_that_somebody_drew() {
+    // A cube of many quads, blown up to a ball.
+    let ball = moved(cuboid([8, 8, 8]), |p| (p - Point::splat(4.0)).normalize());
+    assert!(solid(&ball).is_free_form());
+    assert!(!solid(&cuboid([2, 2, 2])).is_free_form() && !solid(&cylinder(48)).is_free_form());
+    // A third of the surface of half a ball is a plane.
+    let cut = moved(ball.clone(), |p| p.with_z(p.z.max(0.0)));
+    assert!(!solid(&cut).is_free_form());
+    let mut drawn = ball;
+    let edge: Vec<NodeId> = drawn.face(0)[..2].to_vec();
+    drawn.features.polylines = vec![edge];
+    assert!(!solid(&drawn).is_free_form());
+    // Bodies are asked each for itself.
+    let (first, second) = (solid(&drawn), solid(&cuboid([2, 2, 2])));
+    assert_eq!([&first, &second].map(|s| s.body(0, &Silent).unwrap().is_free_form()), [false, false]);
+}
