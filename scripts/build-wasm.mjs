@@ -58,10 +58,13 @@ const BINARYEN_FEATURES = [
   'simd',
 ].map((feature) => `--enable-${feature}`);
 
-// What a module is compiled for, in place of its profile's level: millions of quads a second, or that functions are put
-// into others hardly anywhere but where they say so, which keeps the larger modules a tenth smaller, and as fast.
-const FAST = ['-C', 'opt-level=3'];
-const SMALL = ['-C', 'llvm-args=-inline-threshold=8'];
+// What a module is made for: millions of quads a second, or that functions are put into others hardly anywhere but where
+// they say so, which keeps the larger modules a tenth smaller, and as fast.
+const FAST = { rustc: ['-C', 'opt-level=3'], binaryen: [] };
+const SMALL = {
+  rustc: ['-C', 'llvm-args=-inline-threshold=8'],
+  binaryen: ['--one-caller-inline-max-function-size', '0'],
+};
 
 const ON_ONE_THREAD = { profile: 'web-mesher', optimize: ['-O3'] };
 
@@ -73,12 +76,12 @@ const ON_A_POOL = {
 };
 
 const FLAVOURS = [
-  { name: 'mesher', rustc: FAST, features: 'quads', ...ON_ONE_THREAD },
-  { name: 'mesher-threads', rustc: FAST, features: 'quads,threads', ...ON_A_POOL },
-  { name: 'hexes', rustc: SMALL, features: 'hexes', ...ON_ONE_THREAD },
-  { name: 'hexes-threads', rustc: SMALL, features: 'hexes,threads', ...ON_A_POOL },
-  { name: 'solids', rustc: SMALL, features: 'solids', ...ON_ONE_THREAD },
-  { name: 'solids-threads', rustc: SMALL, features: 'solids,threads', ...ON_A_POOL },
+  { name: 'mesher', ...FAST, features: 'quads', ...ON_ONE_THREAD },
+  { name: 'mesher-threads', ...FAST, features: 'quads,threads', ...ON_A_POOL },
+  { name: 'hexes', ...SMALL, features: 'hexes', ...ON_ONE_THREAD },
+  { name: 'hexes-threads', ...SMALL, features: 'hexes,threads', ...ON_A_POOL },
+  { name: 'solids', ...SMALL, features: 'solids', ...ON_ONE_THREAD },
+  { name: 'solids-threads', ...SMALL, features: 'solids,threads', ...ON_A_POOL },
   { name: 'viewer', features: 'viewer' },
 ];
 
@@ -138,15 +141,15 @@ function compiledPath(name, profile) {
 }
 
 /** Makes the JavaScript side with wasm-bindgen and optimizes the module with Binaryen. */
-async function bind({ name, profile = 'web', optimize }, folder, run) {
+async function bind({ name, profile = 'web', optimize, binaryen: flags }, folder, run) {
   const how = [...BINDGEN_FLAGS, '--out-dir', folder, '--out-name', name];
   await must('wasm-bindgen', [compiledPath(name, profile), ...how], run);
   rmSync(join(folder, `${name}_bg.wasm.d.ts`));
   const bound = join(folder, `${name}_bg.wasm`);
   const wasm = join(folder, `${name}.wasm`);
   if (optimize) {
-    const binaryen = join(root, 'node_modules', '.bin', 'wasm-opt');
-    await must(binaryen, [bound, '-o', wasm, ...BINARYEN_FEATURES, ...optimize], run);
+    const wasmOpt = join(root, 'node_modules', '.bin', 'wasm-opt');
+    await must(wasmOpt, [bound, '-o', wasm, ...BINARYEN_FEATURES, ...optimize, ...flags], run);
     rmSync(bound);
   } else {
     renameSync(bound, wasm);
