@@ -1,7 +1,9 @@
-//! Pushes the cells of new sheets open, all nodes free, and takes sheets back where that fails.
+//! Pushes the cells of new sheets open, all nodes free, and leaves out sheets where that fails.
 //!
 //! A cell can be folded inside while its corners are as good as steps of single nodes make them. Before a sheet over a
-//! whole surface is taken back for a few such cells, nodes around them are put between their neighbours, and pushed anew.
+//! whole surface is left out for a few such cells, nodes around them are put between their neighbours, and pushed anew.
+
+use std::collections::BTreeSet;
 
 use super::super::correspondence::Correspondence;
 use super::super::sheets::SheetReport;
@@ -26,12 +28,12 @@ pub(super) struct Inflated {
     /// All of the mesh, each node movable.
     pub(super) problem: Problem,
     pub(super) sweeps: usize,
-    /// Sheets, wedges and collars that were taken back.
+    /// Sheets, wedges and collars that were left out.
     pub(super) taken_back: usize,
 }
 
-/// Moves nodes until all cells are positive. Where they cannot become so, the sheets are taken back from the last to the
-/// one that has a part in it, and all is done again from where the nodes were; without sheets it is given up.
+/// Moves nodes until all cells are positive. Of the sheets, collars and wedges that have a part in cells that cannot become
+/// so the last ones are left out, and all is done again from where the nodes were; without sheets it is given up.
 pub(super) fn inflate(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
@@ -48,9 +50,11 @@ pub(super) fn inflate(
         sweeps += untangle(&mut problem, &holds, &OptimizeOptions::default(), &part)?;
         problem.find_positive();
         for rings in RINGS {
-            let folded: Vec<u32> = tangled(&problem).collect();
+            let of_sheets = |(layer, cells): (usize, Vec<u32>)| sheets.is_sheet(layer).then_some(cells);
             // Without a collar or wedge a few cells are flat or thin, without a sheet those of whole surfaces.
-            if sheets.last_with(mesh, &folded).is_none_or(|layer| layer >= sheets.sheets) {
+            let culprits = sheets.culprits(mesh, &tangled(&problem));
+            let folded: Vec<u32> = culprits.into_iter().filter_map(of_sheets).flatten().collect();
+            if folded.is_empty() {
                 break;
             }
             even_out(&mut problem, &folded, rings);
@@ -58,19 +62,20 @@ pub(super) fn inflate(
             problem.find_positive();
         }
         range = [range[1], range[1].midpoint(1.0)];
-        let tangled: Vec<u32> = tangled(&problem).collect();
-        let Some(layer) = sheets.last_with(mesh, &tangled) else {
+        let culprits: BTreeSet<usize> =
+            sheets.culprits(mesh, &tangled(&problem)).into_iter().map(|(layer, _)| layer).collect();
+        if culprits.is_empty() {
             return Ok(Inflated { problem, sweeps, taken_back });
-        };
-        while sheets.len() > layer && sheets.take_back(mesh, on) {
-            taken_back += 1;
         }
+        taken_back += culprits.len();
+        let part = Part { whole: monitor, stage: FITTING, range: [range[0]; 2] };
+        sheets.leave_out(mesh, on, &culprits, &part)?;
     }
 }
 
 /// The cells that are not positive.
-fn tangled(problem: &Problem) -> impl Iterator<Item = u32> + '_ {
-    (0u32..).zip(&problem.positive).filter(|(_, positive)| !**positive).map(|(h, _)| h)
+fn tangled(problem: &Problem) -> Vec<u32> {
+    (0u32..).zip(&problem.positive).filter(|(_, positive)| !**positive).map(|(h, _)| h).collect()
 }
 
 /// Puts the nodes of the cells, and of `rings` around them, between their neighbours.
@@ -110,9 +115,9 @@ mod tests {
         let inside: Vec<bool> =
             mesh.positions.iter().map(|p| (*p - middle).abs().max_element() < 2.0).collect();
         let mut problem = Problem::new(&mesh.positions, &mesh.hexes, |n| inside[n.index()]);
-        let folded: Vec<u32> = tangled(&problem).collect();
+        let folded = tangled(&problem);
         assert!(folded.len() > 1);
         even_out(&mut problem, &folded, 0);
-        assert_eq!(tangled(&problem).count(), 0);
+        assert!(tangled(&problem).is_empty());
     }
 }

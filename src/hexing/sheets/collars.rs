@@ -17,16 +17,18 @@
 //! 2. Where such a set is no manifold, the quads between its members join it, a few times; then it is given up.
 //! 3. A pillow can make corners flat at a curve that it crosses: all is done again, a few times.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::correspondence::Correspondence;
 use super::boundary::Boundary;
 use super::groups::Groups;
+use super::layers::{Layers, Purpose};
 use super::need::{FlatCorner, Look};
 use super::shrink::{Layer, ShrinkSet, Torn, pillow};
 use super::sides::Sides;
 use crate::mesh::topology::Sets;
 use crate::mesh::{HexMesh, NodeId};
+use crate::{Cancelled, Monitor};
 
 /// How often the quads around torn nodes join a set.
 const GROWTHS: usize = 3;
@@ -34,25 +36,38 @@ const GROWTHS: usize = 3;
 /// How often flat corners are looked for.
 const ROUNDS: usize = 4;
 
-/// Pillows the hexes of all flat corners.
+/// Pillows the hexes of all flat corners that the `layers` take collars at.
 pub(super) fn insert(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
     boundary: &mut Boundary,
     groups: &Groups,
-) -> Vec<Layer> {
-    let mut layers = Vec::new();
+    layers: &mut Layers,
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
     for _ in 0..ROUNDS {
-        let corners = Look::new(mesh, on, boundary, groups).flat_corners();
+        let mut corners = Look::new(mesh, on, boundary, groups).flat_corners();
+        corners.retain(|corner| layers.takes_collar(corner.node));
         let before = layers.len();
-        for quads in touching(&Sides::of(on, boundary), &corners) {
-            layers.extend(pillow_grown(mesh, on, boundary, quads));
+        for Crowd { quads, corners } in touching(&Sides::of(on, boundary), &corners) {
+            monitor.proceed()?;
+            let corners = corners.into_iter().map(|node| layers.core_node(node)).collect();
+            if let Some(layer) = pillow_grown(mesh, on, boundary, quads) {
+                layers.push(layer, Purpose::Collar(corners));
+            }
         }
         if layers.len() == before {
             break;
         }
     }
-    layers
+    Ok(())
+}
+
+/// What draws back together: quads, and the nodes at which some of them would be flat.
+#[derive(Default)]
+struct Crowd {
+    quads: BTreeSet<u32>,
+    corners: Vec<NodeId>,
 }
 
 /// Pillows the hexes of the quads, with those that are needed to make the set a manifold.
@@ -87,7 +102,7 @@ fn pillow_grown(
 }
 
 /// The quads of the corners, in sets that share nodes on one side of the curves.
-fn touching(sides: &Sides, corners: &[FlatCorner]) -> Vec<BTreeSet<u32>> {
+fn touching(sides: &Sides, corners: &[FlatCorner]) -> Vec<Crowd> {
     let mut quads: Vec<u32> = corners.iter().flat_map(|corner| sides.crowded(corner.quad)).collect();
     quads.sort_unstable();
     quads.dedup();
@@ -99,7 +114,13 @@ fn touching(sides: &Sides, corners: &[FlatCorner]) -> Vec<BTreeSet<u32>> {
             }
         }
     }
-    let mut by_root: Vec<(u32, u32)> = (0u32..).zip(quads).map(|(i, q)| (sets.root(i).0, q)).collect();
-    by_root.sort_unstable();
-    by_root.chunk_by(|a, b| a.0 == b.0).map(|set| set.iter().map(|&(_, q)| q).collect()).collect()
+    let mut crowds: BTreeMap<u32, Crowd> = BTreeMap::new();
+    for (i, &q) in (0u32..).zip(&quads) {
+        crowds.entry(sets.root(i).0).or_default().quads.insert(q);
+    }
+    for corner in corners {
+        let at = quads.binary_search(&corner.quad).expect("a quad is in its own crowd");
+        crowds.entry(sets.root(at as u32).0).or_default().corners.push(corner.node);
+    }
+    crowds.into_values().collect()
 }

@@ -15,15 +15,19 @@
 //! All of these are pillows of shrink sets (`shrink`), decided by topology alone. Old nodes stay on the boundary, so that
 //! the correspondence stays true. What cannot be pillowed without a pinch is left as it is and reported.
 //!
-//! New hexes are thin wedges between old nodes and copies: the fit has to push them open.
+//! New hexes are thin wedges between old nodes and copies: the fit has to push them open. What cannot be pushed open is
+//! left out, and all else is inserted anew (`layers`).
 
 mod boundary;
 mod collars;
 mod groups;
+mod layers;
 mod need;
 mod shrink;
 mod sides;
 mod wedges;
+
+use std::collections::BTreeSet;
 
 use super::correspondence::Correspondence;
 use crate::mesh::{HexMesh, NodeId};
@@ -31,15 +35,17 @@ use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage};
 use boundary::Boundary;
 use groups::Groups;
+use layers::{Layers, Purpose};
 use need::Look;
-use shrink::{Layer, ShrinkSet, Torn, pillow};
+use shrink::{ShrinkSet, Torn, pillow};
 
 const SHEETS: Stage = Stage("sheets");
 
-/// The sheets, collars and wedges that were inserted, in this order, and what could not be done.
+/// The sheets, collars and wedges that were inserted, and what could not be done.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SheetReport {
-    layers: Vec<Layer>,
+    groups: Groups,
+    layers: Layers,
     /// Sheets over groups of surfaces.
     pub sheets: usize,
     /// Pillows beside curves that have room for one hex alone.
@@ -54,40 +60,6 @@ pub struct SheetReport {
     pub flat: Vec<NodeId>,
 }
 
-impl SheetReport {
-    /// How many sheets, wedges and collars there are.
-    pub fn len(&self) -> usize {
-        self.layers.len()
-    }
-
-    /// True if nothing was inserted.
-    pub fn is_empty(&self) -> bool {
-        self.layers.is_empty()
-    }
-
-    /// The place of the last sheet, collar or wedge that has a part in some of the `hexes` by its hexes or nodes; the last
-    /// of all if none has. `None` if there are no sheets or no `hexes`.
-    pub(super) fn last_with(&self, mesh: &HexMesh, hexes: &[u32]) -> Option<usize> {
-        let node = hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).max()?;
-        let hex = hexes.iter().copied().max()?;
-        let is_part = |layer: &Layer| layer.first_hex <= hex || layer.first_node <= node;
-        self.layers.iter().rposition(is_part).or(self.layers.len().checked_sub(1))
-    }
-
-    /// Takes the last sheet, wedge or collar back; false if there is none. Nodes stay where they are.
-    pub fn take_back(&mut self, mesh: &mut HexMesh, on: &mut Correspondence) -> bool {
-        let Some(layer) = self.layers.pop() else { return false };
-        self.hexes -= mesh.hexes.len() - layer.first_hex as usize;
-        layer.take_back(mesh, on);
-        match self.layers.len() {
-            left if left < self.sheets => self.sheets -= 1,
-            left if left < self.sheets + self.collars => self.collars -= 1,
-            _ => self.wedges -= 1,
-        }
-        true
-    }
-}
-
 /// Inserts the sheets, collars and wedges that `mesh` needs on `solid`. New nodes come last, as do new hexes; `on` stays
 /// true.
 ///
@@ -99,47 +71,124 @@ pub fn insert_sheets(
     solid: &SolidModel,
     monitor: &dyn Monitor,
 ) -> Result<SheetReport, Cancelled> {
-    let groups = Groups::of(solid, &on.reduction);
-    insert(mesh, on, &groups, monitor)
+    insert(mesh, on, Groups::of(solid, &on.reduction), monitor)
 }
 
 fn insert(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
-    groups: &Groups,
+    groups: Groups,
     monitor: &dyn Monitor,
 ) -> Result<SheetReport, Cancelled> {
-    let before = mesh.hexes.len();
-    let mut report = SheetReport::default();
-    let mut boundary = Boundary::of(mesh, on);
-    let mut tried = vec![false; groups.bound()];
-    loop {
-        let done = tried.iter().filter(|&&tried| tried).count();
-        monitor.checkpoint(SHEETS, done as f64 / (tried.len() + 1) as f64)?;
-        let needs = Look::new(mesh, on, &boundary, groups).needs();
-        let Some(group) = smallest(&boundary, groups, |group| needs[group] && !tried[group]) else { break };
-        tried[group as usize] = true;
-        let quads = quads_of(&boundary, groups, group);
-        match pillow(mesh, on, &mut boundary, &ShrinkSet::Sheet(&quads)) {
-            Ok(layer) => report.layers.push(layer),
-            Err(Torn(nodes)) => report.pinched.extend(nodes),
-        }
-    }
-    report.sheets = report.layers.len();
-    report.layers.extend(collars::insert(mesh, on, &mut boundary, groups));
-    report.collars = report.layers.len() - report.sheets;
-    let wedges = wedges::insert(mesh, on, &mut boundary, groups, monitor)?;
-    report.wedges = wedges.layers.len();
-    report.layers.extend(wedges.layers);
-    report.pinched.extend(wedges.torn);
-    let flat = Look::new(mesh, on, &boundary, groups).flat_corners();
-    report.flat = flat.into_iter().map(|corner| corner.node).collect();
-    report.flat.sort_unstable();
-    report.flat.dedup();
-    report.hexes = mesh.hexes.len() - before;
-    on.faces = boundary.in_order();
-    monitor.checkpoint(SHEETS, 1.0)?;
+    let mut report = SheetReport { groups, ..SheetReport::default() };
+    report.insert(mesh, on, monitor)?;
     Ok(report)
+}
+
+impl SheetReport {
+    /// How many sheets, wedges and collars there are.
+    pub fn len(&self) -> usize {
+        self.layers.len()
+    }
+
+    /// True if nothing was inserted.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Parts the `hexes`, which cannot be pushed open, by whether they touch. Each with its culprit, which is the last
+    /// sheet, collar or wedge that has a part in it, or is nearest to it; nothing if none was inserted.
+    pub(super) fn culprits(&self, mesh: &HexMesh, hexes: &[u32]) -> Vec<(usize, Vec<u32>)> {
+        self.layers.culprits(mesh, hexes)
+    }
+
+    /// Is it a sheet, and no collar or wedge?
+    pub(super) fn is_sheet(&self, layer: usize) -> bool {
+        self.layers.is_sheet(layer)
+    }
+
+    /// Inserts all anew but for these, and whatever else was left out before. Nodes of the core stay where they are.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when the monitor says so; sheets inserted before that stay.
+    pub(super) fn leave_out(
+        &mut self,
+        mesh: &mut HexMesh,
+        on: &mut Correspondence,
+        culprits: &BTreeSet<usize>,
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
+        self.layers.leave_out(culprits);
+        while self.take_back(mesh, on) {}
+        self.insert(mesh, on, monitor)
+    }
+
+    /// Takes the last sheet, wedge or collar back; false if there is none. Nodes stay where they are.
+    pub fn take_back(&mut self, mesh: &mut HexMesh, on: &mut Correspondence) -> bool {
+        let Some(layer) = self.layers.pop() else { return false };
+        self.hexes -= mesh.hexes.len() - layer.first_hex as usize;
+        layer.take_back(mesh, on);
+        self.count();
+        true
+    }
+
+    fn count(&mut self) {
+        self.sheets = self.layers.count(|purpose| matches!(purpose, Purpose::Sheet(_)));
+        self.collars = self.layers.count(|purpose| matches!(purpose, Purpose::Collar(_)));
+        self.wedges = self.layers.count(|purpose| matches!(purpose, Purpose::Wedge(_)));
+    }
+
+    /// Inserts what is needed and not left out into a mesh without sheets.
+    fn insert(
+        &mut self,
+        mesh: &mut HexMesh,
+        on: &mut Correspondence,
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
+        let before = mesh.hexes.len();
+        let mut boundary = Boundary::of(mesh, on);
+        let pinched = self.insert_layers(mesh, on, &mut boundary, monitor);
+        self.hexes = mesh.hexes.len() - before;
+        self.count();
+        on.faces = boundary.in_order();
+        self.pinched = pinched?;
+        let flat = Look::new(mesh, on, &boundary, &self.groups).flat_corners();
+        self.flat = flat.into_iter().map(|corner| corner.node).collect();
+        self.flat.sort_unstable();
+        self.flat.dedup();
+        monitor.checkpoint(SHEETS, 1.0)
+    }
+
+    /// Inserts sheets, collars and wedges. The nodes at which some would have been pinched.
+    fn insert_layers(
+        &mut self,
+        mesh: &mut HexMesh,
+        on: &mut Correspondence,
+        boundary: &mut Boundary,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<NodeId>, Cancelled> {
+        let Self { groups, layers, .. } = self;
+        let mut pinched = Vec::new();
+        let mut waiting: Vec<bool> =
+            (0..groups.bound() as u32).map(|group| layers.takes_sheet(group)).collect();
+        loop {
+            let done = waiting.iter().filter(|&&waiting| !waiting).count();
+            monitor.checkpoint(SHEETS, done as f64 / (waiting.len() + 1) as f64)?;
+            let needs = Look::new(mesh, on, boundary, groups).needs();
+            let Some(group) = smallest(boundary, groups, |group| needs[group] && waiting[group]) else {
+                break;
+            };
+            waiting[group as usize] = false;
+            let quads = quads_of(boundary, groups, group);
+            match pillow(mesh, on, boundary, &ShrinkSet::Sheet(&quads)) {
+                Ok(layer) => layers.push(layer, Purpose::Sheet(group)),
+                Err(Torn(nodes)) => pinched.extend(nodes),
+            }
+        }
+        collars::insert(mesh, on, boundary, groups, layers, monitor)?;
+        pinched.extend(wedges::insert(mesh, on, boundary, groups, layers, monitor)?);
+        Ok(pinched)
+    }
 }
 
 /// The group with the fewest quads of those `wanted`, the least if several have as many.

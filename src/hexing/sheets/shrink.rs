@@ -329,12 +329,15 @@ impl Copies {
 }
 
 impl Layer {
+    /// What a node was before the layer was inserted.
+    pub(super) fn origin(&self, node: NodeId) -> NodeId {
+        if node < self.first_node { node } else { self.origins[(node.0 - self.first_node.0) as usize] }
+    }
+
     /// Takes the layer back: every new node becomes the one it is a copy of, and what falls together is gone. It has
     /// to be the last one inserted; nodes stay where they are.
     pub(super) fn take_back(&self, mesh: &mut HexMesh, on: &mut Correspondence) {
-        let origin = |n: NodeId| {
-            if n < self.first_node { n } else { self.origins[(n.0 - self.first_node.0) as usize] }
-        };
+        let origin = |n: NodeId| self.origin(n);
         mesh.hexes.truncate(self.first_hex as usize);
         for hex in &mut mesh.hexes {
             *hex = hex.map(origin);

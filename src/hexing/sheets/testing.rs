@@ -110,5 +110,5 @@ pub(in crate::hexing) fn insert_in_groups(
             is_flat[curve.index()] |= p == q;
         }
     }
-    super::insert(mesh, on, &Groups::given(group_of_surface, &is_flat), &Silent).expect("nobody stops it")
+    super::insert(mesh, on, Groups::given(group_of_surface, &is_flat), &Silent).expect("nobody stops it")
 }

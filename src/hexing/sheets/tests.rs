@@ -77,7 +77,7 @@ fn inserted(mesh: HexMesh, on: Correspondence, groups: &Groups) -> Case {
     let before = (mesh.clone(), on.clone(), euler(&mesh));
     assert_true(&mesh, &on);
     let (mut mesh, mut on) = (mesh, on);
-    let report = insert(&mut mesh, &mut on, groups, &Silent).unwrap();
+    let report = insert(&mut mesh, &mut on, groups.clone(), &Silent).unwrap();
     let after = if report.wedges > 0 { euler_of_folds(&mesh) } else { euler(&mesh) };
     assert_eq!(after, before.2);
     assert_true(&mesh, &on);
@@ -121,7 +121,9 @@ fn a_smooth_ball_gets_one_sheet_all_over() {
 fn a_box_that_fits_needs_no_sheet() {
     let mesh = voxels(&cubes(3, |_| true));
     let on = told(&mesh, side_of_box);
-    assert_eq!((on.edges.len(), inserted(mesh, on, &apart(6, 12)).report), (36, SheetReport::default()));
+    assert_eq!(on.edges.len(), 36);
+    let Case { report, .. } = inserted(mesh, on, &apart(6, 12));
+    assert!(report.is_empty() && report.pinched.is_empty() && report.flat.is_empty(), "{report:?}");
 }
 
 /// Of a cylinder the wall alone: the sheet ends at the circles and adds a ring of quads to both ends.
@@ -166,23 +168,28 @@ fn a_boss_gets_collars_at_its_foot() {
     assert!(report.collars > 0 && report.collars <= 8, "{report:?}");
 }
 
-/// A crease that crosses the cubes of a box's top in steps: at every step a quad on each side of it has two edges there.
+/// A box whose top has a crease that crosses its cubes in steps: at every step a quad on each side of it has two edges
+/// there. What its surfaces' groups are, and which curve the crease is.
+fn creased(slope: f64) -> (HexMesh, Correspondence, Groups, CurveId) {
+    let mesh = voxels(&cubes(8, |_| true));
+    let on = told(&mesh, |p, normal| match side_of_box(p, normal) {
+        5 => 5 + u32::from(p.y - 3.0 > slope * (p.x - 3.0)),
+        side => side,
+    });
+    let is_inside = |n: &NodeId| {
+        let p = mesh.positions[n.index()];
+        p.z == 8.0 && (p.truncate() - 4.0).abs().max_element() < 4.0
+    };
+    let crease = on.edges.iter().find(|(ends, _)| ends.iter().all(is_inside)).unwrap().1;
+    let mut is_flat = vec![false; on.edges.iter().map(|&(_, curve)| curve.index() + 1).max().unwrap()];
+    is_flat[crease.index()] = true;
+    (mesh, on, Groups::given(&[0, 1, 2, 3, 4, 5, 5], &is_flat), crease)
+}
+
 #[test]
 fn a_crease_in_steps_gets_collars_on_both_sides() {
     for slope in [0.25, 0.5, 1.0] {
-        let mesh = voxels(&cubes(8, |_| true));
-        let on = told(&mesh, |p, normal| match side_of_box(p, normal) {
-            5 => 5 + u32::from(p.y - 3.0 > slope * (p.x - 3.0)),
-            side => side,
-        });
-        let is_inside = |n: &NodeId| {
-            let p = mesh.positions[n.index()];
-            p.z == 8.0 && (p.truncate() - 4.0).abs().max_element() < 4.0
-        };
-        let crease = on.edges.iter().find(|(ends, _)| ends.iter().all(is_inside)).unwrap().1;
-        let mut is_flat = vec![false; on.edges.iter().map(|&(_, curve)| curve.index() + 1).max().unwrap()];
-        is_flat[crease.index()] = true;
-        let groups = Groups::given(&[0, 1, 2, 3, 4, 5, 5], &is_flat);
+        let (mesh, on, groups, crease) = creased(slope);
         let Case { on, report, .. } = inserted(mesh, on, &groups);
         assert_eq!((report.sheets, report.flat.len()), (0, 0), "{report:?}");
         assert!(report.collars >= 2, "{report:?}");
@@ -191,6 +198,78 @@ fn a_crease_in_steps_gets_collars_on_both_sides() {
         let on_crease = (0..on.anchors.len()).filter(|&n| on.anchors[n] == Anchor::Curve(crease));
         assert!(on_crease.map(quads_at).all(|count| (4..=6).contains(&count)));
     }
+}
+
+/// What is left out is not inserted again, all else is, and the mesh is as good as any.
+#[test]
+fn collars_are_left_out_one_by_one() {
+    let (core, on_core, groups, _) = creased(0.25);
+    let (mut mesh, mut on) = (core.clone(), on_core.clone());
+    let mut report = insert(&mut mesh, &mut on, groups, &Silent).unwrap();
+    let mut left = report.collars;
+    assert!(left > 2, "{report:?}");
+    let mut flat = Vec::new();
+    while left > 0 {
+        // The first is taken, on which the numbers of all other nodes depend.
+        report.leave_out(&mut mesh, &mut on, &BTreeSet::from([0]), &Silent).unwrap();
+        assert_eq!((report.collars, report.sheets, report.wedges), (left - 1, 0, 0));
+        assert_eq!(report.hexes, mesh.hexes.len() - core.hexes.len());
+        assert_eq!(euler(&mesh), 1);
+        assert_true(&mesh, &on);
+        assert!(flat.iter().all(|n| report.flat.contains(n)) && report.flat.len() > flat.len(), "{report:?}");
+        (left, flat) = (report.collars, report.flat.clone());
+    }
+    assert_eq!((mesh, on), (core, on_core));
+}
+
+#[test]
+fn sheets_and_wedges_are_left_out() {
+    let (core, on_core, groups) = upright_edge();
+    let (mut mesh, mut on) = (core.clone(), on_core.clone());
+    let mut report = insert(&mut mesh, &mut on, groups, &Silent).unwrap();
+    assert_eq!((report.sheets, report.wedges), (1, 1));
+    report.leave_out(&mut mesh, &mut on, &BTreeSet::from([report.len() - 1]), &Silent).unwrap();
+    assert_eq!((report.sheets, report.wedges), (1, 0));
+    assert_eq!(euler(&mesh), 1);
+    assert_true(&mesh, &on);
+    report.leave_out(&mut mesh, &mut on, &BTreeSet::from([0]), &Silent).unwrap();
+    assert_eq!((report.sheets, report.wedges), (0, 0));
+}
+
+/// Where this goes on for too long, collars and wedges are left out altogether.
+#[test]
+fn in_the_end_no_collar_is_inserted() {
+    let (core, on_core, groups, _) = creased(0.25);
+    let (mut mesh, mut on) = (core.clone(), on_core.clone());
+    let mut report = insert(&mut mesh, &mut on, groups, &Silent).unwrap();
+    let collars = report.collars;
+    let mut rounds = 0;
+    while !report.is_empty() {
+        assert_eq!(report.collars, collars);
+        report.leave_out(&mut mesh, &mut on, &BTreeSet::new(), &Silent).unwrap();
+        rounds += 1;
+    }
+    assert!(rounds > 2);
+    assert_eq!((mesh, on), (core, on_core));
+}
+
+/// Cells that touch have one culprit, the last layer at them; far from all layers it is the nearest.
+#[test]
+fn culprits_are_the_last_layers_at_cells() {
+    let (mut mesh, mut on, groups, _) = creased(0.25);
+    assert_eq!(SheetReport::default().culprits(&mesh, &[0]), []);
+    let core = mesh.hexes.len() as u32;
+    let report = insert(&mut mesh, &mut on, groups, &Silent).unwrap();
+    let count = mesh.hexes.len() as u32;
+    let of_first = report.culprits(&mesh, &[core]);
+    assert_eq!(of_first, [(0, vec![core])]);
+    // A corner of the box below the first layer's cells, and a cell of the last.
+    let corner = mesh.hexes.iter().position(|hex| hex.contains(&NodeId(0))).unwrap() as u32;
+    let parts = report.culprits(&mesh, &[corner, count - 1]);
+    assert_eq!(parts.len(), 2);
+    assert_eq!(parts[0].1, [corner]);
+    assert_eq!(parts[1], (report.len() - 1, vec![count - 1]));
+    assert_eq!(report.culprits(&mesh, &[core, core + 1]).len(), 1);
 }
 
 /// Covers these surfaces with a sheet, has the curves between them be thin, and inserts wedges. Each edge on these then has
@@ -225,18 +304,21 @@ fn wedges_between(mut mesh: HexMesh, surfaces: &[u32], flat: impl Fn(Point, Poin
     };
     assert!(hexes_at(&mesh, &on, &boundary).iter().all(|&hexes| hexes == 2));
     let before = (mesh.clone(), on.clone(), euler(&mesh));
-    let layers = wedges::insert(&mut mesh, &mut on, &mut boundary, &groups, &Silent).unwrap().layers;
+    let mut layers = Layers::default();
+    let pinched = wedges::insert(&mut mesh, &mut on, &mut boundary, &groups, &mut layers, &Silent);
+    assert_eq!(pinched, Ok(vec![]));
     on.faces = boundary.in_order();
     assert_eq!(euler_of_folds(&mesh), before.2);
     assert_true(&mesh, &on);
     let hexes = hexes_at(&mesh, &on, &boundary);
     assert!(!hexes.is_empty() && hexes.iter().all(|&hexes| hexes == 1), "{hexes:?}");
-    for layer in layers.iter().rev() {
+    let count = layers.len();
+    while let Some(layer) = layers.pop() {
         layer.take_back(&mut mesh, &mut on);
         assert_true(&mesh, &on);
     }
     assert_eq!((mesh, on), (before.0, before.1));
-    layers.len()
+    count
 }
 
 #[test]
@@ -255,8 +337,16 @@ fn a_thin_curve_gets_one_hex() {
 fn a_thin_curve_ends_at_flat_ones() {
     let mesh = voxels(&cubes(6, |p| p.z < -1.0 || p.x < 0.0 && p.y < 0.0));
     let is_foot = |a: Point, b: Point| a.z == 2.0 && b.z == 2.0;
-    assert_eq!(wedges_between(mesh.clone(), &[1, 3, 5], is_foot), 1);
-    // The top's curves are flat as well, so that the group needs its sheet.
+    assert_eq!(wedges_between(mesh, &[1, 3, 5], is_foot), 1);
+    let (mesh, on, groups) = upright_edge();
+    let Case { report, .. } = inserted(mesh, on, &groups);
+    assert_eq!((report.sheets, report.wedges, report.pinched.len()), (1, 1, 0), "{report:?}");
+}
+
+/// The same edge, where the top's curves are flat as well, so that the group needs its sheet.
+fn upright_edge() -> (HexMesh, Correspondence, Groups) {
+    let mesh = voxels(&cubes(6, |p| p.z < -1.0 || p.x < 0.0 && p.y < 0.0));
+    let is_foot = |a: Point, b: Point| a.z == 2.0 && b.z == 2.0;
     let on = told(&mesh, side_of_box);
     let mut is_flat = vec![false; on.edges.iter().map(|&(_, curve)| curve.index() + 1).max().unwrap()];
     let mut thin = Vec::new();
@@ -267,9 +357,7 @@ fn a_thin_curve_ends_at_flat_ones() {
             thin.push(curve);
         }
     }
-    let groups = Groups::given(&[0, 1, 2, 1, 4, 1], &is_flat).with_thin(&thin);
-    let Case { report, .. } = inserted(mesh, on, &groups);
-    assert_eq!((report.sheets, report.wedges, report.pinched.len()), (1, 1, 0), "{report:?}");
+    (mesh, on, Groups::given(&[0, 1, 2, 1, 4, 1], &is_flat).with_thin(&thin))
 }
 
 /// A surface that touches itself at a node alone cannot be covered.
@@ -341,7 +429,7 @@ fn a_monitor_stops_sheets() {
     }
     let mut mesh = voxels(&cubes(3, |_| true));
     let mut on = told(&mesh, |_, _| 0);
-    assert_eq!(insert(&mut mesh, &mut on, &apart(1, 0), &Stopped), Err(Cancelled));
+    assert_eq!(insert(&mut mesh, &mut on, apart(1, 0), &Stopped), Err(Cancelled));
 }
 
 #[cfg(not(target_arch = "wasm32"))]

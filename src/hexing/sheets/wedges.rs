@@ -20,49 +20,45 @@ use std::collections::BTreeSet;
 use super::super::correspondence::Correspondence;
 use super::boundary::{Boundary, ascending};
 use super::groups::Groups;
+use super::layers::{Layers, Purpose};
 use super::need::{CurveEdge, Look};
-use super::shrink::{Layer, ShrinkSet, Torn, pillow};
+use super::shrink::{ShrinkSet, Torn, pillow};
 use super::sides::Sides;
 use crate::mesh::{HexMesh, NodeId};
 use crate::solid::{CurveId, SurfaceId};
 use crate::{Cancelled, Monitor};
 
-/// What came of the thin curves.
-#[derive(Default)]
-pub(super) struct Wedges {
-    pub(super) layers: Vec<Layer>,
-    /// Nodes at which a row would have been pinched, and was left as it is.
-    pub(super) torn: Vec<NodeId>,
-}
-
-/// Pillows the hexes at thin curves.
+/// Pillows the hexes at thin curves that the `layers` take wedges at. The nodes at which a row would have been pinched: it
+/// is left as it was.
 pub(super) fn insert(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
     boundary: &mut Boundary,
     groups: &Groups,
+    layers: &mut Layers,
     monitor: &dyn Monitor,
-) -> Result<Wedges, Cancelled> {
+) -> Result<Vec<NodeId>, Cancelled> {
     let edges = Look::new(mesh, on, boundary, groups).curve_edges();
-    let is_thin = |edge: &&CurveEdge| edge.hexes == 2 && groups.is_thin(edge.curve);
+    let is_thin =
+        |edge: &&CurveEdge| edge.hexes == 2 && groups.is_thin(edge.curve) && layers.takes_wedge(edge.curve);
     let thin: BTreeSet<CurveId> = edges.iter().filter(is_thin).map(|edge| edge.curve).collect();
-    let mut wedges = Wedges::default();
+    let mut pinched = Vec::new();
     for curve in thin {
         monitor.proceed()?;
         let mut torn = Vec::new();
         for Row { hexes, covered } in rows(curve, &Look::new(mesh, on, boundary, groups)) {
             match pillow(mesh, on, boundary, &ShrinkSet::Hexes { hexes: &hexes, covered: &covered }) {
                 Ok(layer) => {
-                    wedges.layers.push(layer);
+                    layers.push(layer, Purpose::Wedge(curve));
                     torn.clear();
                     break;
                 }
                 Err(Torn(nodes)) => torn = nodes,
             }
         }
-        wedges.torn.extend(torn);
+        pinched.extend(torn);
     }
-    Ok(wedges)
+    Ok(pinched)
 }
 
 /// What draws back, and from which quads.
