@@ -2,13 +2,13 @@
 //!
 //! 1. The background of choice, as it is.
 //! 2. Where that is a sweep whose cells are bad, or that is too far from the solid somewhere, a grid instead.
-//! 3. Where the best missed something that somebody drew, or is too far from the solid, cells a level smaller there, as
-//!    often as the options allow, and as long as it helps. Of a core that is not of the solid's kind it is not always known
-//!    where it differs: then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was
-//!    lost alone.
+//! 3. Where the best missed something that somebody drew, or is too far from the solid, cells a level smaller there,
+//!    as often as the options allow, and as long as it helps. Of a core that is not of the solid's kind it is not always
+//!    known where it differs: then thin walls, narrow gaps and short curves are refined. Where that would be many
+//!    cells, what was lost alone.
 //! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
-//! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an octree,
-//!    and 3 for that.
+//! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
+//!    octree, and 3 for that.
 //!
 //! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and how many
 //! times as large as the first another may be is bounded.
@@ -113,7 +113,7 @@ impl Search<'_> {
     /// Makes an attempt; keeps it if it is better than the best so far.
     fn attempt(&mut self, plan: Plan, max_hexes: u64) -> Result<(), HexingError> {
         let background = self.site.background(&plan, max_hexes, self.monitor)?;
-        let bar = self.best_report().map(Bar::of);
+        let bar = self.best_report().map(|best| Bar::of(best, self.site.taste));
         let (report, meshed) = match attempt(self.site, &plan, background, bar, self.monitor) {
             Err(HexingError::Tangled(hexes)) => {
                 self.tangled = Some(hexes);

@@ -9,7 +9,7 @@
 //! | how far mesh and solid are from each other | edges, twice |
 //! | curves and surfaces that are lost | share of all; half of it on free forms |
 //! | the mean scaled Jacobian | what it lacks to 1, four times, and to [`FAIR`], ten times |
-//! | the least scaled Jacobian | what it lacks to a good one, as a share of that, twice, and [`FAULT`] if it lacks anything |
+//! | the least scaled Jacobian | twice the share of a good one that it lacks, and [`FAULT`] if it lacks any |
 
 use std::cmp::Ordering;
 
@@ -27,14 +27,16 @@ pub(super) struct Taste {
     lost: f64,
     /// What shows less than this share of the curves and surfaces is not what was asked for.
     pub(super) shown: f64,
+    /// An attempt that loses a greater share of the features than another by this is given up before it is fitted.
+    loss: f64,
 }
 
 impl Taste {
     /// For solids that somebody drew.
-    const DRAWN: Self = Self { good: 0.35, lost: 1.0, shown: 0.5 };
+    const DRAWN: Self = Self { good: 0.35, lost: 1.0, shown: 0.5, loss: 0.02 };
 
     /// For free forms: nobody drew their curves, and nothing tells cells where to be poor.
-    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, shown: 0.0 };
+    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, shown: 0.0, loss: 1.0 };
 
     /// For this solid.
     pub(super) fn of(solid: &SolidModel) -> Self {
@@ -46,7 +48,7 @@ impl Taste {
 const APART: f64 = 2.0;
 const WORST: f64 = 2.0;
 
-/// What it weighs that the least scaled Jacobian is no good one, however little it lacks.
+/// What it costs that the least scaled Jacobian is no good one, however little it lacks.
 const FAULT: f64 = 0.25;
 
 /// What a lack of mean scaled Jacobian weighs.
@@ -56,25 +58,23 @@ const MEAN: f64 = 4.0;
 const FAIR: f64 = 0.85;
 const UNFAIR: f64 = 10.0;
 
-/// An attempt that loses a greater share of the features than another by this is given up before it is fitted.
-const LOSS: f64 = 0.02;
-
 /// What an attempt has to reach to be worth going on with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bar {
     off_euler: u64,
+    /// The share of the features that it may lose.
     lost: f64,
 }
 
 impl Bar {
     /// That of the best attempt so far.
-    pub(super) fn of(best: &AttemptReport) -> Self {
-        Self { off_euler: off_euler(&best.core), lost: lost(best.features.as_ref()) }
+    pub(super) fn of(best: &AttemptReport, taste: Taste) -> Self {
+        Self { off_euler: off_euler(&best.core), lost: lost(best.features.as_ref()) + taste.loss }
     }
 
     /// Is a core that is so far from the solid's Euler number, with these features if they are known, not worth it?
     pub(super) fn is_above(&self, off_euler: u64, features: Option<&FeatureReport>) -> bool {
-        let loses_more = features.is_some() && lost(features) > self.lost + LOSS;
+        let loses_more = features.is_some() && lost(features) > self.lost;
         off_euler > self.off_euler || off_euler == self.off_euler && loses_more
     }
 }
@@ -137,6 +137,7 @@ mod tests {
     use super::super::core::CoreReport;
     use super::super::report::{Captured, FitCounts, LostFeature, MeshedReport, SheetCounts};
     use super::*;
+    use crate::geometry::Point;
     use crate::mesh::Distances;
 
     fn options() -> HexingOptions {
@@ -213,6 +214,25 @@ mod tests {
         let (good, creased) = (attempt(2, 23, 0.718, 0.45, 0.895), attempt(2, 13, 0.768, 0.443, 0.893));
         assert!(is_better(&good, &creased, &options(), Taste::FREE_FORM));
         assert!(is_better(&creased, &good, &options(), Taste::DRAWN));
+        // Whichever comes first, the other is gone on with.
+        for [first, second] in [[&good, &creased], [&creased, &good]] {
+            assert!(!Bar::of(first, Taste::FREE_FORM).is_above(0, second.features.as_ref()));
+        }
+        // They count all the same: ten of a hundred as much as half of that share of two edges.
+        let smooth = |distance| attempt(2, 10, distance, 0.45, 0.895);
+        let creased = attempt(2, 0, 0.7, 0.45, 0.895);
+        assert!(is_better(&smooth(0.64), &creased, &options(), Taste::FREE_FORM));
+        assert!(is_better(&creased, &smooth(0.66), &options(), Taste::FREE_FORM));
+        assert!(is_better(&creased, &smooth(0.61), &options(), Taste::DRAWN));
+    }
+
+    #[test]
+    fn tastes_are_those_of_solids() {
+        use crate::solid::testing::{cuboid, moved, solid};
+        let cube = cuboid([6, 6, 6]);
+        let ball = moved(cube.clone(), |p| (p - Point::splat(3.0)).normalize());
+        assert_eq!(Taste::of(&solid(&cube)), Taste::DRAWN);
+        assert_eq!(Taste::of(&solid(&ball)), Taste::FREE_FORM);
     }
 
     #[test]
@@ -234,7 +254,7 @@ mod tests {
 
     #[test]
     fn attempts_that_lose_much_more_are_not_gone_on_with() {
-        let bar = Bar::of(&attempt(2, 3, 0.5, 0.4, 0.9));
+        let bar = Bar::of(&attempt(2, 3, 0.5, 0.4, 0.9), Taste::DRAWN);
         let losing = |lost| attempt(2, lost, 0.0, 0.0, 0.0).features;
         assert!(!bar.is_above(0, None) && bar.is_above(2, None));
         assert!(!bar.is_above(0, losing(4).as_ref()) && bar.is_above(0, losing(6).as_ref()));

@@ -50,7 +50,7 @@ impl FineCells {
     }
 }
 
-/// All that an attempt on a kind of background missed and smaller cells may show.
+/// All that an attempt on a kind of background missed, smaller cells may show, and somebody drew.
 pub(super) fn misses(
     site: &Site<'_>,
     kind: Background,
@@ -62,16 +62,17 @@ pub(super) fn misses(
     let solid = site.solid;
     let finest = site.edge_length(kind) / f64::from(1u32 << site.finest(kind));
     let mut failures = Vec::new();
-    // Nobody misses what nobody drew.
-    let is_drawn = !solid.is_free_form();
-    let is_missed = |lost: &LostCurve| lost.fate == CurveFate::Suppressed && lost.reason != Reason::Costly;
-    for lost in reduction.lost_curves.iter().filter(|lost| is_drawn && is_missed(lost)) {
+    let is_missed = |lost: &&LostCurve| {
+        let is_wanted = lost.reason != Reason::Costly && solid.is_drawn(lost.curve);
+        lost.fate == CurveFate::Suppressed && is_wanted
+    };
+    for lost in reduction.lost_curves.iter().filter(is_missed) {
         // What even the finest cells are too large for is given up at once.
         if lost.reason != Reason::Short || lost.length >= AROUND * finest {
             failures.push(Failure::of_curve(solid, lost.curve, 0, finest));
         }
     }
-    for lost in reduction.lost_surfaces.iter().filter(|_| is_drawn) {
+    for lost in reduction.lost_surfaces.iter().filter(|_| !solid.is_free_form()) {
         failures.push(Failure::of_surface(solid, lost.surface, 0, finest));
     }
     if !core.report.has_right_euler() {

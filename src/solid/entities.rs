@@ -50,6 +50,13 @@ pub struct Curve {
     pub is_straight: bool,
 }
 
+impl Curve {
+    /// By how much its sides meet at another angle than a straight one, in degrees.
+    pub fn sharpness(&self) -> f64 {
+        (self.interior_angle - 180.0).abs()
+    }
+}
+
 /// A part of the boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {

@@ -17,6 +17,9 @@ use crate::{Cancelled, Monitor, Stage, parallel};
 /// More than this share of the boundary of a free form is neither planar nor cylindrical.
 const FREE_FORM: f64 = 0.9;
 
+/// Nobody drew a curve of a free form whose sides meet at an angle nearer to a straight one than this, in degrees.
+const CREASED: f64 = 90.0;
+
 /// A solid by its boundary: a closed surface of triangles that look outward, in surfaces that meet at curves, which meet
 /// at corners. There may be several disjoint bodies, and voids within them.
 #[derive(Debug)]
@@ -28,6 +31,7 @@ pub struct SolidModel {
     corners: Vec<Corner>,
     curves: Vec<Curve>,
     surfaces: Vec<Surface>,
+    is_free_form: bool,
     bounds: Aabb,
     all: TriangleSearch,
     by_surface: Vec<TriangleSearch>,
@@ -40,7 +44,7 @@ struct Parts {
     shell: Shell,
     /// For each half-edge whether it is part of a curve.
     is_feature: Vec<bool>,
-    /// For each half-edge whether that is so because tags meet there.
+    /// For each half-edge whether that is so because the file says it: tags meet there, or a line or crease runs there.
     tagged: Vec<bool>,
     /// The body of each triangle.
     body_of: Vec<u32>,
@@ -105,6 +109,7 @@ impl SolidModel {
             })?,
             sides: Sides::new(shell, &normals, monitor)?,
             bounds: Aabb::around(&shell.mesh.points),
+            is_free_form: is_free_form(&surfaces, &parts.tagged),
             parts,
             normals,
             surface_of,
@@ -229,11 +234,16 @@ impl SolidModel {
         self.surfaces.iter().map(|s| s.area).sum()
     }
 
-    /// Is nearly all of its boundary neither planar nor cylindrical, without a curve that tags tell? Then nobody drew its
-    /// curves: they are creases of a scan, or of an organic shape.
+    /// Is nearly all of its boundary neither planar nor cylindrical, without a curve that the file tells? Then most of
+    /// its curves are creases of a scan, or of an organic shape.
     pub fn is_free_form(&self) -> bool {
-        let general = self.surfaces.iter().filter(|s| s.class == SurfaceClass::General).map(|s| s.area);
-        general.sum::<f64>() > FREE_FORM * self.area() && !self.parts.tagged.contains(&true)
+        self.is_free_form
+    }
+
+    /// Did somebody draw the curve? Of a free form that is believed of those alone whose sides meet at an angle that is
+    /// farther from a straight one than 90 degrees.
+    pub fn is_drawn(&self, curve: CurveId) -> bool {
+        !self.is_free_form || self.curves[curve.index()].sharpness() >= CREASED
     }
 
     /// The point of the boundary nearest to `p`.
@@ -277,6 +287,13 @@ impl SolidModel {
 
 fn normals(shell: &Shell) -> Vec<Point> {
     parallel::collect(shell.mesh.triangles.len(), |t| area_vector(&shell.mesh.at(t)).normalize_or_zero())
+}
+
+/// Is nearly all of the boundary general, and no half-edge tagged?
+fn is_free_form(surfaces: &[Surface], tagged: &[bool]) -> bool {
+    let area_of = |is: &dyn Fn(&&Surface) -> bool| surfaces.iter().filter(is).map(|s| s.area).sum::<f64>();
+    let general = area_of(&|s| s.class == SurfaceClass::General);
+    general > FREE_FORM * area_of(&|_| true) && !tagged.contains(&true)
 }
 
 fn refuse_crossings(

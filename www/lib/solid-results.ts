@@ -129,6 +129,31 @@ export interface BodyReport {
   kept: number | null;
 }
 
+/** How the hexes of a background that stand for a body were chosen. */
+export interface CoreReport {
+  /** Hexes of the background. */
+  background: number;
+  /** Of these, at what is thinner than a hex. */
+  thin: number;
+  /** Of these, what the cut decided on. */
+  undecided: number;
+  /** Hexes of the core. */
+  cells: number;
+  /** Changes that made its boundary a manifold, and rounds of these. */
+  flips: number;
+  rounds: number;
+  /** Terraces of its boundary that were moved by a hex to save creases. */
+  terraces: number;
+  /** Hexes removed because they hung together with no body, and added because they were closed in. */
+  crumbs: number;
+  bubbles: number;
+  /** Euler characteristic of the core's boundary and of the solid's. */
+  euler: number;
+  solidEuler: number;
+  /** The core's volume over the solid's. */
+  volumeRatio: number;
+}
+
 /** What came of one attempt. What was not done, since the attempt was worse than one before, is left out or null. */
 export interface SolidAttempt {
   background: Background;
@@ -139,9 +164,12 @@ export interface SolidAttempt {
   /** Whether what is thinner than cells was made as thick as one. */
   keepThin: boolean;
   /** The hexes of the background that stand for the body. */
-  core: { background: number; cells: number; euler: number; solidEuler: number; volumeRatio: number };
+  core: CoreReport;
   features: FeatureReport | null;
-  /** Layers of hexes that were put under the boundary where cells would be flat or thin there. */
+  /**
+   * Layers of hexes that were put under the boundary where cells would be flat or thin there, and how many were left out
+   * because their hexes could not be pushed open.
+   */
   sheets?: { sheets: number; wedges: number; collars: number; hexes: number; takenBack: number; pinched: number };
   /** How the nodes came to the solid: those that are not there, and the farthest of them. */
   fit?: { sweeps: number; off: number; farthest: number; place: Vector | null; drawnIn: number };

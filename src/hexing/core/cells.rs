@@ -18,6 +18,13 @@ pub(super) struct Cells<'a> {
 /// No cell.
 pub(super) const NONE: u32 = u32::MAX;
 
+/// Each value once, ascending.
+pub(super) fn distinct<T: Ord>(mut all: Vec<T>) -> Vec<T> {
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
 impl<'a> Cells<'a> {
     /// Looks a conforming mesh over.
     pub fn of(mesh: &'a HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {

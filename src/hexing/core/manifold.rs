@@ -10,10 +10,10 @@
 //!
 //! At each node that is pinched (see `link`) a component of those that are too many changes sides, or a single cell that
 //! joins two of them: what costs least. A cell costs how deep it lies on its side, in edge lengths, and 1 for each time
-//! that it was changed before. No cell is changed more than [`MOST_FLIPS`] times: where that is not enough, all cells at the
-//! node are taken out for good. So it ends, whatever the cells.
+//! that it was changed before. No cell is changed more than [`MOST_FLIPS`] times: where that is not enough, all cells at
+//! the node are taken out for good. So it ends, whatever the cells.
 
-use super::cells::Cells;
+use super::cells::{Cells, distinct};
 use super::link::{Component, Link};
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES_AT;
@@ -65,16 +65,11 @@ pub(super) fn make_manifold(
         }
         lonely.extend(changed.iter().flat_map(|&cell| cells.beside(cell as usize).map(|c| c as u32)));
         lonely.extend(&changed);
-        distinct(&mut lonely);
+        lonely = distinct(lonely);
         nodes = changed.iter().flat_map(|&cell| cells.mesh.hexes[cell as usize].map(|n| n.0)).collect();
-        distinct(&mut nodes);
+        nodes = distinct(nodes);
     }
     Ok(repair.repairs)
-}
-
-fn distinct(ids: &mut Vec<u32>) {
-    ids.sort_unstable();
-    ids.dedup();
 }
 
 struct Repair<'a> {

@@ -1,9 +1,9 @@
 //! Levels steps: the core's boundary gets few creases.
 //!
 //! ```text
-//!           +---+---+           Where the solid is a little askew to the cells, the core has steps. At a crease, an edge of
-//!           |   |   |           its boundary, one cell of the core is there, or three, and not two. Once a sheet lies around
-//!   +---+---o---+---+---+       the core three or five cells meet there in place of four, and no smoothing gives these good
+//!           +---+---+           Where the solid is a little askew to the cells, the core has steps. At a crease, an edge
+//!           |   |   |           of its boundary, one cell of the core is there, or three, and not two. Once a sheet lies
+//!   +---+---o---+---+---+       around the core three or five cells meet there, not four, and no smoothing gives these good
 //!   |   |   |   |   |   |       angles. Flat layers are bent by the fit as well.
 //!   +---+---+---+---+---+
 //! ```
@@ -17,12 +17,12 @@
 //! lengths. The moves that save most are made until none saves anything. A boundary that was a manifold stays one, with
 //! its Euler number.
 
-use super::cells::{Cells, NONE};
+use super::cells::{Cells, NONE, distinct};
 use super::link::Link;
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{
-    EDGE_BETWEEN, EDGES, EDGES_OF_FACE, FACES, FACES_AT, FACES_AT_EDGE, OPPOSITE_FACE,
+    EDGE_BETWEEN, EDGES, EDGES_OF_FACE, FACES, FACES_AT, FACES_AT_EDGE, NONE as NO_EDGE, OPPOSITE_FACE,
 };
 use crate::{Cancelled, Monitor, parallel};
 
@@ -32,7 +32,7 @@ const DEEPEST: f64 = 1.0;
 /// The cosine between the outward normals of a terrace and of the solid, at least: 50 degrees.
 const TURNED: f64 = 0.64;
 
-/// What a move saves, at least.
+/// How many creases a move saves, at least, less what it costs.
 const LEAST: f64 = 1.0;
 
 /// Moves terraces in or out, as long as that saves something. `outward` tells the solid's unit normal near a cell; none
@@ -46,7 +46,7 @@ pub(super) fn level(
 ) -> Result<usize, Cancelled> {
     let shallow = parallel::filter(cells.len(), |cell| depth[cell].abs() <= DEEPEST);
     let normals = parallel::try_collect(shallow.len(), monitor, |k| outward(shallow[k] as usize))?;
-    let site = Site { cells, depth, shallow, normals };
+    let site = Leveller { cells, depth, shallow, normals };
     let mut awake = vec![true; cells.len()];
     let mut count = 0;
     loop {
@@ -63,10 +63,6 @@ pub(super) fn level(
         for Move { cells: moved, .. } in moves {
             // What a move saves depends on the cells at its nodes.
             if moved.iter().any(|&cell| changed[cell as usize]) {
-                moved
-                    .iter()
-                    .flat_map(|&cell| cells.beside(cell as usize))
-                    .for_each(|cell| awake[cell] = true);
                 continue;
             }
             count += 1;
@@ -168,11 +164,11 @@ fn beyond_edge(edge: u8, face: u8) -> u8 {
 /// The edge of a hex between two nodes, if there is one.
 fn edge_of(hex: &[NodeId; 8], ends: [NodeId; 2]) -> Option<u8> {
     let [a, b] = ends.map(|end| hex.iter().position(|&n| n == end));
-    Some(EDGE_BETWEEN[a?][b?])
+    Some(EDGE_BETWEEN[a?][b?]).filter(|&edge| edge != NO_EDGE)
 }
 
 /// What moves depend on.
-struct Site<'a> {
+struct Leveller<'a> {
     cells: &'a Cells<'a>,
     depth: &'a [f64],
     /// The cells that are not deep, ascending, and for each the normal of the solid there, unless it is to stay.
@@ -180,7 +176,7 @@ struct Site<'a> {
     normals: Vec<Option<Point>>,
 }
 
-impl Site<'_> {
+impl Leveller<'_> {
     /// Finds the moves of a terrace that save something.
     fn moves(&self, set: &Set<'_>, terrace: &[Quad], found: &mut Vec<Move>) {
         for out in [true, false] {
@@ -218,11 +214,11 @@ impl Site<'_> {
             (above, !set.is_in(neighbours[above as usize][usize::from(beyond)]))
         };
         let normal = self.shallow.binary_search(&moved).ok().and_then(|k| self.normals[k])?;
-        (stays && normal.dot(self.outward((cell, face))) >= TURNED).then_some(moved)
+        (stays && normal.dot(self.normal_of((cell, face))) >= TURNED).then_some(moved)
     }
 
     /// The unit normal of a quad.
-    fn outward(&self, (cell, face): Quad) -> Point {
+    fn normal_of(&self, (cell, face): Quad) -> Point {
         let at = FACES[usize::from(face)]
             .map(|k| self.cells.mesh.positions[self.cells.mesh.hexes[cell as usize][usize::from(k)].index()]);
         (at[2] - at[0]).cross(at[3] - at[1]).normalize_or_zero()
@@ -233,14 +229,7 @@ impl Site<'_> {
         let before = |cell: usize| set.inside[cell];
         let after = |cell: usize| set.inside[cell] != moved.binary_search(&(cell as u32)).is_ok();
         let hexes = || moved.iter().map(|&cell| &self.cells.mesh.hexes[cell as usize]);
-        let ends = |hex: &[NodeId; 8]| {
-            let hex = *hex;
-            EDGES.map(|edge| {
-                let [a, b] = edge.map(|corner| hex[usize::from(corner)]);
-                [a.min(b), a.max(b)]
-            })
-        };
-        let edges = distinct(hexes().flat_map(ends).collect());
+        let edges = distinct(hexes().flat_map(ends_of_edges).collect());
         let creases = |edge: [NodeId; 2]| self.creases(edge, before) - self.creases(edge, after);
         let saved: i64 = edges.into_iter().map(creases).sum();
         let wrong = |cell: u32| {
@@ -290,10 +279,12 @@ impl Site<'_> {
     }
 }
 
-fn distinct<T: Ord>(mut all: Vec<T>) -> Vec<T> {
-    all.sort_unstable();
-    all.dedup();
-    all
+/// The ends of a hex's edges, the lesser node first.
+fn ends_of_edges(hex: &[NodeId; 8]) -> [[NodeId; 2]; 12] {
+    EDGES.map(|edge| {
+        let [a, b] = edge.map(|corner| hex[usize::from(corner)]);
+        [a.min(b), a.max(b)]
+    })
 }
 
 #[cfg(test)]

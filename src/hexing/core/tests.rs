@@ -131,13 +131,21 @@ fn in_refined_domains_the_papers_energy_is_cut() {
         (0..cells.len()).map(|c| solid.signed_distance(cells.barycentre(c)).abs() < 0.25).collect();
     let options =
         CoreOptions { energy: Energy::Paper, domain: Some(&domain), keep_thin: false, level: false };
-    let core = core(&background, &solid, &options, &Silent).unwrap();
-    assert_eq!(check_hexes(&core.mesh), []);
-    assert!(
-        core.report.has_right_euler() && core.report.undecided == domain.iter().filter(|&&is| is).count()
-    );
+    let cut = core(&background, &solid, &options, &Silent).unwrap();
+    assert_eq!(check_hexes(&cut.mesh), []);
+    assert!(cut.report.has_right_euler() && cut.report.undecided == domain.iter().filter(|&&is| is).count());
     // Cells whose faces would be bad are left out.
-    assert!((0.7..1.0).contains(&core.report.volume_ratio), "{:?}", core.report);
+    assert!((0.7..1.0).contains(&cut.report.volume_ratio), "{:?}", cut.report);
+
+    // Half of the domain alone is levelled.
+    let domain: Vec<bool> = (0..cells.len()).map(|c| domain[c] && cells.barycentre(c).x > 0.0).collect();
+    let [flat, stepped] = [true, false].map(|level| {
+        let options = CoreOptions { level, domain: Some(&domain), ..CoreOptions::default() };
+        core(&background, &solid, &options, &Silent).unwrap()
+    });
+    assert!(flat.report.terraces > 0 && flat.report.has_right_euler(), "{:?}", flat.report);
+    let beyond = |core: &Core| core.cells.iter().copied().filter(|c| !domain[c.index()]).collect::<Vec<_>>();
+    assert!(flat.cells != stepped.cells && beyond(&flat) == beyond(&stepped));
 }
 
 #[test]

@@ -88,7 +88,7 @@ impl<'a> Network<'a> {
 
     /// How far a curve is from smooth, in degrees.
     pub fn sharpness(&self, curve: CurveId) -> f64 {
-        (self.solid.curves()[curve.index()].interior_angle - 180.0).abs()
+        self.solid.curves()[curve.index()].sharpness()
     }
 
     pub fn fates(&self) -> &[CurveFate] {

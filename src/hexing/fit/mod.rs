@@ -9,8 +9,8 @@
 //! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: as long
 //!    as fewer nodes are stuck than before, the last two steps are made again, twice at most;
 //! 5. `loosen`: nodes that cannot get to their curve rest on a surface beside it;
-//! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed again, for which nodes that are off the
-//!    solid, or on curves that nobody drew, may go a little farther;
+//! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed again, for which nodes that are
+//!    off the solid, or on curves that nobody drew, may go a little farther;
 //! 7. `even`: all is smoothed for the mean;
 //! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places.
 //!
@@ -62,8 +62,8 @@ const FITTING: Stage = Stage("fitting");
 /// Drawing the boundary makes no cell worse than this, unless it is already.
 const FLOOR: f64 = 0.2;
 
-/// The share of the work that is done where the pull starts, and where stuck nodes are unlocked and cells smoothed, again as
-/// long as that frees some, and where those that stay stuck are let go.
+/// The share of the work that is done where the pull starts, and where stuck nodes are unlocked and cells smoothed, again
+/// as long as that frees some, and where those that stay stuck are let go.
 const PULL: f64 = 0.1;
 const UNLOCK: [f64; 3] = [0.3, 0.5, 0.7];
 const LOOSEN: f64 = 0.9;
@@ -90,7 +90,8 @@ pub struct FitOptions {
     pub sweeps: usize,
     /// How the cells are smoothed in the end.
     pub smoothing: OptimizeOptions,
-    /// How far mesh and solid may be from each other, in model units: around poor cells nodes leave it by half of that at most.
+    /// How far mesh and solid may be from each other, in model units: for better cells nodes leave where they belong by
+    /// half of that at most, if they are not farther already.
     pub max_distance: f64,
 }
 
@@ -122,7 +123,7 @@ pub struct FitReport {
     pub taken_back: usize,
     /// Sweeps over nodes.
     pub sweeps: usize,
-    /// Boundary nodes that are off the solid, the farthest first.
+    /// Boundary nodes that are not where they belong, the farthest first.
     pub off: Vec<OffNode>,
     /// The least scaled Jacobian; `None` if there are no hexes.
     pub worst: Option<f64>,
@@ -154,7 +155,7 @@ pub fn fit(
         let mut polish = || {
             let softened = soften(mesh, on, &mut holds, solid, options.max_distance, &part(SOFTEN, EVEN))?;
             let evened = even(mesh, on, &holds, solid, &part(EVEN, NEAR))?;
-            Ok(softened + evened + near(mesh, on, &holds, solid, &part(NEAR, 1.0))?)
+            Ok(softened + evened + near(mesh, on, &holds, solid, options.max_distance, &part(NEAR, 1.0))?)
         };
         match polish() {
             Ok(sweeps) => report.sweeps += sweeps,

@@ -51,12 +51,14 @@ const FARTHEST: usize = 8;
 /// Nodes between two questions whether to stop.
 const BATCH: usize = 16;
 
-/// Moves boundary nodes where mesh and solid are farthest from each other. Returns the number of sweeps.
+/// Moves boundary nodes where mesh and solid are farthest from each other; nodes leave where they belong by no more than
+/// half of `max_distance`, if they are not farther already. Returns the number of sweeps.
 pub(super) fn near(
     mesh: &mut HexMesh,
     on: &Correspondence,
     holds: &[Hold],
     solid: &SolidModel,
+    max_distance: f64,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let samples = samples(mesh, &on.faces, solid, monitor)?;
@@ -83,7 +85,7 @@ pub(super) fn near(
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
         let apart = Apart::new(&problem, &on.faces, survey, solid);
         let worst = quality(mesh).0.map_or(GOOD, |worst| worst.min(GOOD));
-        let places = Places { on, holds, target: &target, apart, worst };
+        let places = Places { on, holds, target: &target, apart, worst, leave: 0.5 * max_distance };
         let tries = places.try_all(&mut problem, &part(0.0, 0.7))?;
         problem.write_back(&mut mesh.positions);
         if tries == 0 {
@@ -143,6 +145,8 @@ struct Places<'a> {
     apart: Apart<'a>,
     /// No cell is to be worse.
     worst: f64,
+    /// How far nodes may leave where they belong, in model units.
+    leave: f64,
 }
 
 impl Places<'_> {
@@ -204,7 +208,7 @@ impl Places<'_> {
             let foot = self.target.foot(self.on.anchors[id.index()], p);
             foot.map_or(0.0, |foot| foot.point.distance(p))
         };
-        let leash = from_foot(from).max(LEAVE * problem.edge(node));
+        let leash = from_foot(from).max(self.leave.min(LEAVE * problem.edge(node)));
         let stays = |to: Point| match self.holds[id.index()] {
             // Planes go on beyond their surface.
             Hold::Held => self.apart.is_no_farther(to, from),
@@ -315,7 +319,7 @@ mod tests {
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let before = farthest(&mesh, &on, &solid);
         assert!((0.045..0.055).contains(&before), "a fifth of an edge and more: {before}");
-        assert!(near(&mut mesh, &on, &held(&on), &solid, &Silent).unwrap() > 0);
+        assert!(near(&mut mesh, &on, &held(&on), &solid, f64::INFINITY, &Silent).unwrap() > 0);
         let after = farthest(&mesh, &on, &solid);
         assert!(after < 0.4 * before, "{before} {after}");
         for (anchor, p) in on.anchors.iter().zip(&mesh.positions) {
@@ -323,6 +327,23 @@ mod tests {
         }
         let jacobian = |hex: &[NodeId; 8]| scaled_jacobian(&hex.map(|n| mesh.positions[n.index()]));
         assert!(mesh.hexes.iter().map(jacobian).fold(1.0, f64::min) > GOOD);
+    }
+
+    /// Nodes that may leave the solid do so by no more than half of how far the mesh may be from it.
+    #[test]
+    fn leashes_are_as_long_as_the_distance_allowed() {
+        let (solid, mesh) = (house(), mesh_of_house());
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let leashed: Vec<Hold> =
+            held(&on).into_iter().map(|hold| if hold == Hold::Held { Hold::Leashed } else { hold }).collect();
+        let off = |max_distance: f64| {
+            let mut mesh = mesh.clone();
+            near(&mut mesh, &on, &leashed, &solid, max_distance, &Silent).unwrap();
+            let boundary = (0..on.anchors.len()).filter(|&n| on.anchors[n] != Anchor::Inside);
+            boundary.map(|n| solid.nearest(mesh.positions[n]).distance).fold(0.0, f64::max)
+        };
+        assert!(off(1e-4) <= 0.5e-4 + 1e-12, "{}", off(1e-4));
+        assert!(off(f64::INFINITY) > 0.6e-4, "{}", off(f64::INFINITY));
     }
 
     #[test]
@@ -335,7 +356,7 @@ mod tests {
             p.x = 1.0;
         });
         let before = mesh.positions.clone();
-        assert_eq!(near(&mut mesh, &on, &held(&on), &solid, &Silent), Ok(0));
+        assert_eq!(near(&mut mesh, &on, &held(&on), &solid, f64::INFINITY, &Silent), Ok(0));
         assert_eq!(mesh.positions, before);
     }
 

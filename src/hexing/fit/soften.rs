@@ -21,7 +21,7 @@ use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{OptimizeOptions, Problem, smooth};
-use crate::solid::{Curve, CurveId, SolidModel, SurfaceClass, SurfaceId};
+use crate::solid::{CurveId, SolidModel, SurfaceClass, SurfaceId};
 use crate::{Cancelled, Monitor, parallel};
 
 /// Cells whose scaled Jacobian is below this are poor.
@@ -32,9 +32,7 @@ const POOR: f64 = 0.46;
 const SOFT: f64 = 60.0;
 const SMALL: f64 = 0.8;
 
-/// Nobody drew a curve of a free form whose sides meet at an angle that is nearer to a straight one than this, in degrees,
-/// and are general, or smaller than so many edges.
-const BENT: f64 = 90.0;
+/// A curve that nobody drew is noise if its sides are general, or smaller than so many edges.
 const NOISE: f64 = 2.0;
 
 /// A node that is nearer to where it belongs than this share of an edge has not left it.
@@ -53,7 +51,8 @@ const RINGS: usize = 3;
 const SMOOTHING: OptimizeOptions =
     OptimizeOptions { target: 0.65, untangle_sweeps: 0, courses: 4, smooth_sweeps: 6, worst_sweeps: 12 };
 
-/// Mends what can be mended; nodes leave where they belong by no more than half of `max_distance`. Returns the number of sweeps.
+/// Mends what can be mended; nodes leave where they belong by no more than half of `max_distance`, if they are not farther
+/// already. Returns the number of sweeps.
 pub(super) fn soften(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
@@ -62,7 +61,6 @@ pub(super) fn soften(
     max_distance: f64,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    let is_free_form = solid.is_free_form();
     let (mut sweeps, mut worst, mut was_last) = (0, 0.0, false);
     for round in 0..ROUNDS {
         let part = |from: usize| from as f64 / ROUNDS as f64;
@@ -89,7 +87,7 @@ pub(super) fn soften(
         problem.order_by(4, |n| on.anchors[n.index()].freedom());
         let target = OnSolid::new(solid, &on.reduction);
         let mut guide = Holds::kept(&target, &on.anchors, holds, &mesh.positions);
-        let leaving = leaving(mesh, on, holds, &low, solid, is_free_form);
+        let leaving = leaving(mesh, on, holds, &low, solid);
         for &n in &leaving {
             // The boundary cuts across between its nodes, too.
             let length = (0.5 * max_distance).min(LEAVE * problem.edge(problem.local(n)));
@@ -118,7 +116,6 @@ fn leaving(
     holds: &[Hold],
     hexes: &[u32],
     solid: &SolidModel,
-    is_free_form: bool,
 ) -> Vec<NodeId> {
     let mut leaving = Vec::new();
     for hex in hexes.iter().map(|&h| &mesh.hexes[h as usize]) {
@@ -127,7 +124,7 @@ fn leaving(
             let curves = curves_at(n, on, solid);
             !curves.is_empty() && curves.into_iter().all(|curve| is_noise(solid, curve, size))
         };
-        let leaves = |&n: &NodeId| holds[n.index()].is_off() || is_free_form && is_on_noise(n);
+        let leaves = |&n: &NodeId| holds[n.index()].is_off() || is_on_noise(n);
         leaving.extend(hex.iter().copied().filter(leaves));
     }
     leaving.sort_unstable();
@@ -146,14 +143,8 @@ fn curves_at(node: NodeId, on: &Correspondence, solid: &SolidModel) -> Vec<Curve
 
 /// Is it a curve that nobody drew, among hexes with edges of that `size`?
 fn is_noise(solid: &SolidModel, curve: CurveId, size: f64) -> bool {
-    let curve = &solid.curves()[curve.index()];
     let of_noise = |s: &SurfaceId| is_general(solid, *s) || is_smaller(solid, *s, NOISE * size);
-    from_straight(curve) < BENT && curve.sides.iter().all(of_noise)
-}
-
-/// By how much the sides of a curve meet at another angle than a straight one, in degrees.
-fn from_straight(curve: &Curve) -> f64 {
-    (curve.interior_angle - 180.0).abs()
+    !solid.is_drawn(curve) && solid.curves()[curve.index()].sides.iter().all(of_noise)
 }
 
 fn is_general(solid: &SolidModel, surface: SurfaceId) -> bool {
@@ -189,7 +180,7 @@ fn least_missed(hex: &[NodeId; 8], size: f64, on: &Correspondence, solid: &Solid
         let curve = &solid.curves()[curve.index()];
         let [a, b] = curve.sides;
         let is_small = |s: SurfaceId| is_smaller(solid, s, SMALL * size);
-        from_straight(curve) < SOFT
+        curve.sharpness() < SOFT
             && (is_general(solid, a) || is_general(solid, b))
             && (a == b || is_small(a) || is_small(b))
     };

@@ -1,6 +1,6 @@
 //! Features that the file marks, and noise.
 
-use super::super::testing::moved;
+use super::super::testing::{both, moved};
 use super::made;
 use super::*;
 use crate::mesh::{TagSet, Tags};
@@ -92,11 +92,29 @@ fn free_forms_have_no_planes_and_no_curves_that_somebody_drew() {
     // A third of the surface of half a ball is a plane.
     let cut = moved(ball.clone(), |p| p.with_z(p.z.max(0.0)));
     assert!(!solid(&cut).is_free_form());
-    let mut drawn = ball;
+    let mut drawn = ball.clone();
     let edge: Vec<NodeId> = drawn.face(0)[..2].to_vec();
     drawn.features.polylines = vec![edge];
     assert!(!solid(&drawn).is_free_form());
     // Bodies are asked each for itself.
-    let (first, second) = (solid(&drawn), solid(&cuboid([2, 2, 2])));
-    assert_eq!([&first, &second].map(|s| s.body(0, &Silent).unwrap().is_free_form()), [false, false]);
+    let pair = solid(&both(drawn, &moved(ball, |p| p + Point::X * 4.0)));
+    assert_eq!([0, 1].map(|body| pair.body(body, &Silent).unwrap().is_free_form()), [false, true]);
+    assert!(!pair.is_free_form());
+}
+
+/// A lens has no plane, and its rim is no crease of a scan where it is sharp.
+#[test]
+fn of_a_free_form_sharp_curves_are_drawn() {
+    let ball = moved(cuboid([8, 8, 8]), |p| (p - Point::splat(4.0)).normalize());
+    for (height, is_drawn) in [(0.3, true), (1.2, false)] {
+        // Both halves are bent towards each other at the equator.
+        let lens = moved(ball.clone(), |p| p.with_z(p.z.signum() * height * (1.0 - p.x.hypot(p.y)).max(0.0)));
+        let lens = solid(&lens);
+        assert!(lens.is_free_form());
+        let rim = lens.curves().iter().position(|curve| curve.length > 5.0).expect("a rim");
+        assert_eq!(lens.is_drawn(CurveId::new(rim)), is_drawn, "{:?}", lens.curves()[rim]);
+    }
+    // All curves of other solids are.
+    let cube = solid(&cuboid([2, 2, 2]));
+    assert!((0..12).all(|curve| cube.is_drawn(CurveId::new(curve))));
 }
