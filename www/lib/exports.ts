@@ -48,6 +48,7 @@ export type { Background, MeshSolidOptions, PlanSolidOptions, SecondOrderHex, So
 export type {
   BodyReport,
   Captured,
+  CoreReport,
   DistanceSummary,
   FeatureReport,
   FoundSolid,
