@@ -3,8 +3,6 @@
 //! A cell can be folded inside while its corners are as good as steps of single nodes make them. Before a sheet over a
 //! whole surface is left out for a few such cells, nodes around them are put between their neighbours, and pushed anew.
 
-use std::collections::BTreeSet;
-
 use super::super::correspondence::Correspondence;
 use super::super::sheets::SheetReport;
 use super::FITTING;
@@ -62,8 +60,10 @@ pub(super) fn inflate(
             problem.find_positive();
         }
         range = [range[1], range[1].midpoint(1.0)];
-        let culprits: BTreeSet<usize> =
+        let mut culprits: Vec<usize> =
             sheets.culprits(mesh, &tangled(&problem)).into_iter().map(|(layer, _)| layer).collect();
+        culprits.sort_unstable();
+        culprits.dedup();
         if culprits.is_empty() {
             return Ok(Inflated { problem, sweeps, taken_back });
         }

@@ -17,7 +17,7 @@
 //! 2. Where such a set is no manifold, the quads between its members join it, a few times; then it is given up.
 //! 3. A pillow can make corners flat at a curve that it crosses: all is done again, a few times.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::super::correspondence::Correspondence;
 use super::boundary::Boundary;
@@ -64,7 +64,6 @@ pub(super) fn insert(
 }
 
 /// What draws back together: quads, and the nodes at which some of them would be flat.
-#[derive(Default)]
 struct Crowd {
     quads: BTreeSet<u32>,
     corners: Vec<NodeId>,
@@ -114,13 +113,12 @@ fn touching(sides: &Sides, corners: &[FlatCorner]) -> Vec<Crowd> {
             }
         }
     }
-    let mut crowds: BTreeMap<u32, Crowd> = BTreeMap::new();
-    for (i, &q) in (0u32..).zip(&quads) {
-        crowds.entry(sets.root(i).0).or_default().quads.insert(q);
-    }
-    for corner in corners {
-        let at = quads.binary_search(&corner.quad).expect("a quad is in its own crowd");
-        crowds.entry(sets.root(at as u32).0).or_default().corners.push(corner.node);
-    }
-    crowds.into_values().collect()
+    let mut by_root: Vec<(u32, u32)> = (0u32..).zip(quads).map(|(i, q)| (sets.root(i).0, q)).collect();
+    by_root.sort_unstable();
+    let crowd = |set: &[(u32, u32)]| {
+        let quads: BTreeSet<u32> = set.iter().map(|&(_, q)| q).collect();
+        let corners = corners.iter().filter(|corner| quads.contains(&corner.quad));
+        Crowd { corners: corners.map(|corner| corner.node).collect(), quads }
+    };
+    by_root.chunk_by(|a, b| a.0 == b.0).map(crowd).collect()
 }

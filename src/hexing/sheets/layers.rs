@@ -4,8 +4,6 @@
 //! New nodes are copies of others. Which node of the core one comes from in the end does not depend on what else was
 //! inserted: by it a collar is known again when all is inserted anew.
 
-use std::collections::BTreeSet;
-
 use super::shrink::Layer;
 use crate::mesh::topology::Sets;
 use crate::mesh::{HexMesh, NodeId};
@@ -35,9 +33,9 @@ pub(super) struct Layers {
 /// What no layer is inserted for: its cells could not be pushed open.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct LeftOut {
-    groups: BTreeSet<u32>,
-    corners: BTreeSet<NodeId>,
-    curves: BTreeSet<CurveId>,
+    groups: Vec<u32>,
+    corners: Vec<NodeId>,
+    curves: Vec<CurveId>,
     /// How often more was left out.
     rounds: usize,
 }
@@ -87,13 +85,13 @@ impl Layers {
     }
 
     /// From now on no layer is inserted for what these layers are for.
-    pub(super) fn leave_out(&mut self, layers: &BTreeSet<usize>) {
+    pub(super) fn leave_out(&mut self, layers: &[usize]) {
         self.left_out.rounds += 1;
         for &layer in layers {
             match &self.layers[layer].1 {
-                Purpose::Sheet(group) => _ = self.left_out.groups.insert(*group),
+                Purpose::Sheet(group) => self.left_out.groups.push(*group),
                 Purpose::Collar(corners) => self.left_out.corners.extend(corners),
-                Purpose::Wedge(curve) => _ = self.left_out.curves.insert(*curve),
+                Purpose::Wedge(curve) => self.left_out.curves.push(*curve),
             }
         }
     }

@@ -27,8 +27,6 @@ mod shrink;
 mod sides;
 mod wedges;
 
-use std::collections::BTreeSet;
-
 use super::correspondence::Correspondence;
 use crate::mesh::{HexMesh, NodeId};
 use crate::solid::SolidModel;
@@ -115,7 +113,7 @@ impl SheetReport {
         &mut self,
         mesh: &mut HexMesh,
         on: &mut Correspondence,
-        culprits: &BTreeSet<usize>,
+        culprits: &[usize],
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
         self.layers.leave_out(culprits);
