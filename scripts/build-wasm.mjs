@@ -63,7 +63,7 @@ const BINARYEN_FEATURES = [
 const FAST = { rustc: ['-C', 'opt-level=3'], binaryen: [] };
 const SMALL = {
   rustc: ['-C', 'llvm-args=-inline-threshold=8'],
-  binaryen: ['--one-caller-inline-max-function-size', '0'],
+  binaryen: ['--one-caller-inline-max-function-size', '0', '--flexible-inline-max-function-size', '0'],
 };
 
 const ON_ONE_THREAD = { profile: 'web-mesher', optimize: ['-O3'] };
