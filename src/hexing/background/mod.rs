@@ -10,6 +10,7 @@ mod columns;
 mod demand;
 mod drivers;
 mod grid;
+mod levels;
 mod lines;
 mod octree;
 mod pieces;

@@ -1,24 +1,16 @@
 //! The swept background (the paper's §4.2): the quads of the principal face, layer by layer along the direction.
 
 use super::columns::{Columns, share_an_edge};
+use super::levels::levels;
 use crate::geometry::Point;
 use crate::hexing::face::{FaceError, PrincipalFace, RegionMesh, RegionOptions, principal_face};
 use crate::mesh::topology::{Bins, Sets};
 use crate::mesh::{HexMesh, NodeId};
-use crate::solid::{Curve, SolidModel, SurfaceClass};
+use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// Hexes whose centre is farther outside than this, in edge lengths, are dropped.
 const FAR: f64 = 2.0;
-
-/// Levels closer than this, in edge lengths, are one.
-const MERGED: f64 = 0.25;
-
-/// A curve whose points are no farther apart along the direction than this, in edge lengths, is across it.
-const FLAT: f64 = 0.01;
-
-/// The cosine of 1 degree: normals closer than this to the direction are along it.
-const ALONG: f64 = 0.999_847_7;
 
 const SWEEP: Stage = Stage("sweep");
 
@@ -72,7 +64,8 @@ pub struct Sweep {
 
 impl Sweep {
     /// Meshes the principal face along `direction`, of any length but 0, and finds the layers: these stand in planar
-    /// surfaces and curves across the direction; between them edges are about `edge_length` long.
+    /// surfaces and curves across the direction, and around holes across it; between them edges are about `edge_length`
+    /// long.
     ///
     /// # Errors
     /// See [`SweepError`]. The number of hexes, those far outside of the solid among them, is held against `max_hexes`
@@ -184,44 +177,6 @@ fn layers(
         return Err(SweepError::TooManyHexes { hexes: about, limit: max_hexes });
     }
     Ok(heights(&levels, edge_length))
-}
-
-/// Where layers stand along the direction: both ends, planar surfaces across it, largest first, and planar curves across
-/// it, longest first, but for those too close to one before. Ascending.
-fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> Vec<f64> {
-    let along = |p: Point| p.dot(direction);
-    let none = (f64::INFINITY, f64::NEG_INFINITY);
-    let span = |points: &mut dyn Iterator<Item = f64>| points.fold(none, |(a, b), x| (a.min(x), b.max(x)));
-    let (first, last) = span(&mut solid.points().iter().map(|&p| along(p)));
-    let mut wanted: Vec<(f64, f64)> = Vec::new();
-    let across = |class: &SurfaceClass| match class {
-        SurfaceClass::Planar { normal } => normal.dot(direction).abs() > ALONG,
-        _ => false,
-    };
-    for surface in solid.surfaces().iter().filter(|surface| across(&surface.class)) {
-        let corners = surface.triangles.iter().flat_map(|&t| solid.corners_of(t as usize));
-        let (low, high) = span(&mut corners.map(along));
-        wanted.push((surface.area / edge_length, 0.5 * (low + high)));
-    }
-    let surfaces = wanted.len();
-    for curve in solid.curves() {
-        let Curve { vertices, length, .. } = curve;
-        let (low, high) = span(&mut vertices.iter().map(|&v| along(solid.points()[v as usize])));
-        if high - low <= FLAT * edge_length {
-            wanted.push((*length, 0.5 * (low + high)));
-        }
-    }
-    for part in [0..surfaces, surfaces..wanted.len()] {
-        wanted[part].sort_by(|a, b| b.0.total_cmp(&a.0));
-    }
-    let mut levels = vec![first, last];
-    for (_, level) in wanted {
-        if levels.iter().all(|other| (level - other).abs() >= MERGED * edge_length) {
-            levels.push(level);
-        }
-    }
-    levels.sort_by(f64::total_cmp);
-    levels
 }
 
 /// The heights of all layers: steps of about the edge length from level to level.

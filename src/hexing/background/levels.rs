@@ -1,0 +1,143 @@
+//! Where the layers of a sweep have to stand.
+//!
+//! 1. At both ends of the solid;
+//! 2. in planar surfaces across the direction, the largest first;
+//! 3. in planar curves across it, the longest first;
+//! 4. at both ends and in the middle of holes and pins across it that are about as thick as an edge is long, the largest
+//!    first: with four cells around its middle a circle becomes eight edges, else as few as four.
+//!
+//! What is too close to a level before has none.
+
+use crate::geometry::Point;
+use crate::solid::{Curve, SolidModel, Surface, SurfaceClass};
+
+/// Levels closer than this, in edge lengths, are one; those of holes and pins, closer than that.
+const MERGED: f64 = 0.25;
+const MERGED_AROUND: f64 = 0.4;
+
+/// A curve whose points are no farther apart along the direction than this, in edge lengths, is across it.
+const FLAT: f64 = 0.01;
+
+/// The cosine of 1 degree: normals closer than this to the direction are along it.
+const ALONG: f64 = 0.999_847_7;
+
+/// The cosine of 80 degrees: axes farther than that from the direction are across it.
+const ACROSS: f64 = 0.17;
+
+/// A surface turns around from the one side to the other if its normals come so near to the direction, and to its opposite.
+const AROUND: f64 = 0.9;
+
+/// How thick holes and pins are that are looked at, in edge lengths: of thinner ones no cell is left, thicker ones have cells
+/// enough.
+const THICK: [f64; 2] = [0.8, 2.2];
+
+/// Heights along a unit direction, ascending.
+pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> Vec<f64> {
+    let Extent { low, high } = Extent::of(solid.points().iter().copied(), direction);
+    let mut levels = Levels { at: vec![low, high], edge_length };
+    let (mut planes, mut curves, mut round) = (Vec::new(), Vec::new(), Vec::new());
+    for surface in solid.surfaces() {
+        let extent =
+            Extent::of(surface.triangles.iter().flat_map(|&t| solid.corners_of(t as usize)), direction);
+        if is_across(surface, direction) {
+            planes.push((surface.area, extent));
+        } else if turns_around(solid, surface, direction) && extent.is_thick(edge_length) {
+            round.push((surface.area, extent));
+        }
+    }
+    for Curve { vertices, length, .. } in solid.curves() {
+        let extent = Extent::of(vertices.iter().map(|&v| solid.points()[v as usize]), direction);
+        if extent.thickness() <= FLAT * edge_length {
+            curves.push((*length, extent));
+        }
+    }
+    for list in [&mut planes, &mut curves, &mut round] {
+        list.sort_by(|a, b| b.0.total_cmp(&a.0));
+    }
+    planes.iter().chain(&curves).for_each(|(_, extent)| levels.add(extent.middle(), MERGED));
+    for (_, extent) in round {
+        [extent.low, extent.middle(), extent.high].into_iter().for_each(|at| levels.add(at, MERGED_AROUND));
+    }
+    levels.at.sort_by(f64::total_cmp);
+    levels.at
+}
+
+/// Levels in the order in which they were found.
+struct Levels {
+    at: Vec<f64>,
+    edge_length: f64,
+}
+
+impl Levels {
+    /// Adds a level, if none is closer than so many edges.
+    fn add(&mut self, level: f64, merged: f64) {
+        if self.at.iter().all(|other| (level - other).abs() >= merged * self.edge_length) {
+            self.at.push(level);
+        }
+    }
+}
+
+/// From where to where something reaches along the direction.
+#[derive(Clone, Copy)]
+struct Extent {
+    low: f64,
+    high: f64,
+}
+
+impl Extent {
+    fn of(points: impl Iterator<Item = Point>, direction: Point) -> Self {
+        let none = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
+        points
+            .map(|p| p.dot(direction))
+            .fold(none, |Self { low, high }, at| Self { low: low.min(at), high: high.max(at) })
+    }
+
+    fn thickness(self) -> f64 {
+        self.high - self.low
+    }
+
+    fn middle(self) -> f64 {
+        0.5 * (self.low + self.high)
+    }
+
+    fn is_thick(self, edge_length: f64) -> bool {
+        (THICK[0] * edge_length..THICK[1] * edge_length).contains(&self.thickness())
+    }
+}
+
+/// Is a surface planar, and across the direction?
+fn is_across(surface: &Surface, direction: Point) -> bool {
+    matches!(surface.class, SurfaceClass::Planar { normal } if normal.dot(direction).abs() > ALONG)
+}
+
+/// Is a surface a cylinder across the direction that goes around from its one side to the other?
+fn turns_around(solid: &SolidModel, surface: &Surface, direction: Point) -> bool {
+    let SurfaceClass::Cylindrical { axis } = surface.class else { return false };
+    let faces = |way: Point| surface.triangles.iter().any(|&t| solid.normals()[t as usize].dot(way) > AROUND);
+    axis.dot(direction).abs() < ACROSS && faces(direction) && faces(-direction)
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::solid::testing::{cylinder, moved, solid};
+
+    /// A cylinder across z, of so large a radius about the origin.
+    fn pin(radius: f64) -> SolidModel {
+        solid(&moved(cylinder(96), |p| Point::new(2.0 * p.z, radius * p.x, radius * p.y)))
+    }
+
+    #[test]
+    fn pins_across_have_levels_at_both_ends_and_in_the_middle() {
+        let found = levels(&pin(0.6), Point::Z, 1.0);
+        assert_eq!(found.len(), 3, "{found:?}");
+        assert!(found.iter().zip([-0.6, 0.0, 0.6]).all(|(a, b)| (a - b).abs() < 1e-3), "{found:?}");
+    }
+
+    #[test]
+    fn thick_and_thin_pins_and_those_along_have_none_in_the_middle() {
+        assert_eq!(levels(&pin(1.2), Point::Z, 1.0).len(), 2);
+        assert_eq!(levels(&pin(0.3), Point::Z, 1.0).len(), 2);
+        assert_eq!(levels(&pin(0.6), Point::X, 1.0).len(), 2);
+    }
+}
