@@ -122,6 +122,17 @@ impl Boundary {
         self.tree.nearest_neighbor(p.to_array()).map_or(0.0, |leaf| self.lengths[leaf.data as usize])
     }
 
+    /// How long an edge at the boundary node nearest to `p` may be that runs where edges are short: halfway from the
+    /// mean there to the shortest.
+    pub fn short_length_near(&self, p: Point) -> f64 {
+        self.tree.nearest_neighbor(p.to_array()).map_or(0.0, |leaf| {
+            let at = self.points[leaf.data as usize];
+            let lengths =
+                self.spokes_of(leaf.data).iter().map(|spoke| at.distance(self.points[spoke.to as usize]));
+            0.5 * (self.lengths[leaf.data as usize] + lengths.fold(f64::INFINITY, f64::min))
+        })
+    }
+
     /// The area of a quad along its outward normal.
     pub fn area_vector(&self, quad: u32) -> Point {
         area_vector(&self.quads[quad as usize].map(|n| self.points[n as usize]))

@@ -56,7 +56,7 @@ pub fn correspond(
     monitor.checkpoint(CORRESPONDENCE, 0.0)?;
     let boundary = Boundary::of(mesh, monitor)?;
     let mut network = Network::of(solid);
-    network::give_up_short(&mut network, |p| boundary.length_near(p));
+    network::give_up_short(&mut network, &boundary);
     monitor.checkpoint(CORRESPONDENCE, 0.1)?;
     let capture = capture::capture(&boundary, &mut network, monitor)?;
     monitor.checkpoint(CORRESPONDENCE, 0.9)?;

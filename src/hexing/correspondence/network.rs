@@ -11,6 +11,7 @@
 //!     c   f              c f
 //! ```
 
+use super::boundary::Boundary;
 use super::reduction::{CurveFate, LostCurve, Reason};
 use crate::geometry::Point;
 use crate::solid::{Arm, CornerId, CurveId, SolidModel};
@@ -174,19 +175,24 @@ impl<'a> Network<'a> {
     }
 }
 
-/// Arcs shorter than this many local edges are contracted from the start.
+/// Arcs shorter than this many local edges, such as run where edges are short, are contracted from the start.
 const SHORT_ARC: f64 = 0.6;
 
 /// Closed curves shorter than this many local edges are suppressed from the start: three edges would make a triangle
 /// smaller than the quads around it.
 const SHORT_LOOP: f64 = 2.5;
 
-/// Gives up, shortest first, the curves that are too short for edges of the length that `length_near` tells.
-pub(super) fn give_up_short(network: &mut Network, length_near: impl Fn(Point) -> f64) {
+/// Gives up, shortest first, the curves that are too short for the edges of the boundary.
+pub(super) fn give_up_short(network: &mut Network, boundary: &Boundary) {
     let is_short = |network: &Network, curve: CurveId| {
-        let h = length_near(network.point_along(curve, 0.5 * network.solid.curves()[curve.index()].length));
+        let middle = network.point_along(curve, 0.5 * network.solid.curves()[curve.index()].length);
         let is_arc = network.ends(curve).is_some_and(|[a, b]| a != b);
-        network.length(curve) < h * if is_arc { SHORT_ARC } else { SHORT_LOOP }
+        network.length(curve)
+            < if is_arc {
+                SHORT_ARC * boundary.short_length_near(middle)
+            } else {
+                SHORT_LOOP * boundary.length_near(middle)
+            }
     };
     let mut queue: std::collections::BTreeSet<(u64, CurveId)> =
         network.curves().map(|c| (network.length(c).to_bits(), c)).collect();

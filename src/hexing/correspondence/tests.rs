@@ -5,7 +5,7 @@ use crate::Silent;
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::apart;
 use crate::mesh::{GridOptions, PolygonMesh, hex_grid};
-use crate::solid::testing::{cuboid, cylinder, ell, holed, solid, voxels};
+use crate::solid::testing::{cuboid, cylinder, ell, holed, moved, solid, voxels};
 
 /// The cells of a grid of edge length `h` whose centres are inside, and as many more as make a manifold of them.
 fn core(solid: &SolidModel, h: f64) -> HexMesh {
@@ -153,6 +153,15 @@ fn a_plate_of_one_layer_keeps_both_faces() {
     check(&core(&solid, 1.0), &solid, [12, 0, 0]);
     let solid = crate::solid::testing::solid(&turned(cuboid([6, 5, 1]), 0.3));
     check(&core(&solid, 0.45), &solid, [12, 0, 0]);
+}
+
+/// Where cells are wide and low, a curve as short as they are high is an edge.
+#[test]
+fn a_flat_plate_of_one_layer_keeps_its_short_curves() {
+    let flat = |p: Point| p.with_z(0.45 * p.z);
+    let mut mesh = core(&solid(&cuboid([6, 5, 1])), 1.0);
+    mesh.positions.iter_mut().for_each(|p| *p = flat(*p));
+    check(&mesh, &solid(&moved(cuboid([6, 5, 1]), flat)), [12, 0, 0]);
 }
 
 /// Curves that are given up later, one after the other, leave a correspondence that holds what it promises.
