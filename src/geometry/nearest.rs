@@ -165,6 +165,10 @@ impl<F: Facet> NearestFacet<F> {
             }
             let Below::Leaf(first, len) = self.nodes[at as usize].below else { continue };
             for numbered in &self.facets[first as usize..(first + len) as usize] {
+                let bounds = Aabb::around(numbered.facet.corners());
+                if best.is_some_and(|(nearest, ..)| bounds.distance_squared(p) > nearest) {
+                    continue;
+                }
                 let point = numbered.facet.closest(p);
                 let distance = point.distance_squared(p);
                 let is_nearer = |(nearest, other, _): (f64, &Numbered<F>, Point)| {
