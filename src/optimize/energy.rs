@@ -6,7 +6,7 @@
 //! ```text
 //! shape      f = (|a|^2 + |b|^2 + |c|^2) / (3 chi^(2/3))     1 where a, b, c are equally long and perpendicular
 //! angles     r = |a| |b| |c| / chi                           1 / scaled Jacobian where eps is 0
-//! energy     (1 - mu) f^(3n) + mu r^(2n)                     n a power of two
+//! energy     (1 - mu) f^(3n) + mu r^(2n)                     n a power of two, or a half
 //! ```
 //!
 //! f^3 and r^2 are rational in chi, so no root of third degree and no logarithm is taken.
@@ -20,8 +20,8 @@ use crate::geometry::Point;
 /// Which energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Weights {
-    /// The power n is two to this.
-    pub(crate) doublings: u32,
+    /// The power n is two to this, -1 at least.
+    pub(crate) doublings: i32,
     /// The share of the angles, from 0 to 1.
     pub(crate) mu: f64,
 }
@@ -78,7 +78,7 @@ pub(crate) struct Factors<S: Simd> {
 impl Weights {
     /// n.
     pub(crate) fn power(self) -> f64 {
-        f64::from(1 << self.doublings)
+        libm::ldexp(1.0, self.doublings)
     }
 }
 
@@ -131,9 +131,10 @@ impl<S: Simd> Energy<S> {
 
 /// `x` to the power of two to the `doublings`.
 #[inline(always)]
-fn doubled<S: Simd>(x: f64x4<S>, doublings: u32) -> f64x4<S> {
+fn doubled<S: Simd>(x: f64x4<S>, doublings: i32) -> f64x4<S> {
     let square = x * x;
     match doublings {
+        ..0 => x.sqrt(),
         0 => x,
         1 => square,
         2 => square * square,
@@ -176,7 +177,7 @@ mod tests {
 
     #[test]
     fn a_cube_corner_has_energy_one() {
-        for (doublings, mu) in [(0, 0.0), (2, 0.4), (4, 1.0)] {
+        for (doublings, mu) in [(-1, 0.5), (0, 0.0), (2, 0.4), (4, 1.0)] {
             let weights = Weights { doublings, mu };
             let [energy, angles, derived] = cube(3.0, 27.0, None, weights);
             assert!((energy - 1.0).abs() < 1e-12 && (angles - 1.0).abs() < 1e-12, "{energy}");

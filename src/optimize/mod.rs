@@ -28,7 +28,7 @@ mod untangle;
 pub(crate) use energy::Weights;
 pub(crate) use guide::{Guide, Pull};
 pub(crate) use problem::Problem;
-pub(crate) use smooth::{even_out, keep_positive, smooth};
+pub(crate) use smooth::{Evening, even_out, keep_positive, smooth};
 pub(crate) use star::Star;
 pub(crate) use sweep::{Moved, Rules, sweep, wake, worst_kept};
 pub(crate) use symmetric::Symmetric;

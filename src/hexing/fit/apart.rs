@@ -5,7 +5,7 @@
 
 use std::collections::HashSet;
 
-use crate::geometry::{NearestTriangle, Point, closest_on_triangle};
+use crate::geometry::{Aabb, NearestTriangle, Point, closest_on_triangle};
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::Problem;
 use crate::solid::{SolidModel, SurfaceId};
@@ -155,12 +155,12 @@ impl Sparse<'_> {
 }
 
 /// Where the corners of faces are.
-fn quads(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Vec<[Point; 4]> {
+pub(super) fn quads(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Vec<[Point; 4]> {
     faces.iter().map(|(quad, _)| quad.map(|n| mesh.positions[n.index()])).collect()
 }
 
 /// The mean length of the sides of all quads.
-fn mean_edge(quads: &[[Point; 4]]) -> f64 {
+pub(super) fn mean_edge(quads: &[[Point; 4]]) -> f64 {
     quads.iter().map(mean_side).sum::<f64>() / quads.len() as f64
 }
 
@@ -224,17 +224,20 @@ impl<'a> Apart<'a> {
         self.around[node as usize].iter().map(|&q| self.distances[q as usize]).fold(0.0, f64::max)
     }
 
-    /// Is a place on the solid, or no farther from it than another?
-    pub(super) fn is_no_farther(&self, place: Point, than: Point) -> bool {
-        let distance = |p: Point| self.solid.nearest(p).distance;
-        distance(place) <= distance(than).max(ON * self.solid.diagonal())
+    /// How far a place is from the solid, where what is on it counts as a little off.
+    pub(super) fn reach(&self, place: Point) -> f64 {
+        self.solid.nearest(place).distance.max(ON * self.solid.diagonal())
+    }
+
+    /// Is a place no farther from the solid than `reach`?
+    pub(super) fn is_within(&self, place: Point, reach: f64) -> bool {
+        self.solid.nearest(place).distance <= reach
     }
 
     /// The samples of the solid that are farthest from the quads around a node, at most so many.
     pub(super) fn farthest_samples(&self, problem: &Problem, node: u32, count: usize) -> Vec<Point> {
-        let at = problem.points[node as usize];
-        let distance = |p: Point| self.distance_squared(problem, node, at, p);
-        let mut samples = self.samples(node).map(|p| (distance(p), p)).collect();
+        let patch = self.patch(problem, node, problem.points[node as usize]);
+        let mut samples = self.samples(node).map(|(own, p)| (patch.distance_squared(own, p), p)).collect();
         keep_farthest(&mut samples);
         samples.into_iter().take(count).map(|(_, p)| p).collect()
     }
@@ -242,9 +245,9 @@ impl<'a> Apart<'a> {
     /// What is apart around a node that stands at `at`: the sum of the fourth powers of the distances of all samples, so
     /// that the greatest count. Less than `limit`, or none.
     pub(super) fn error(&self, problem: &Problem, node: u32, at: Point, limit: f64) -> Option<f64> {
-        let of_solid = self.samples(node).map(|p| self.distance_squared(problem, node, at, p));
-        let middles = self.around(problem, node, at).flat_map(|quad| middles(&quad));
-        let of_mesh = std::iter::once(at).chain(middles).map(|p| {
+        let patch = self.patch(problem, node, at);
+        let of_solid = self.samples(node).map(|(own, p)| patch.distance_squared(own, p));
+        let of_mesh = patch.middles().chain([at]).map(|p| {
             let distance = self.solid.nearest(p).distance;
             distance * distance
         });
@@ -258,21 +261,39 @@ impl<'a> Apart<'a> {
         Some(error)
     }
 
-    /// The samples of the solid at the quads around a node.
-    fn samples(&self, node: u32) -> impl Iterator<Item = Point> + '_ {
-        self.around[node as usize].iter().flat_map(|&q| self.samples[q as usize].iter().copied())
+    /// The samples of the solid at the quads around a node, each behind the place of its quad among these.
+    fn samples(&self, node: u32) -> impl Iterator<Item = (usize, Point)> + '_ {
+        let around = self.around[node as usize].iter().enumerate();
+        around.flat_map(|(own, &q)| self.samples[q as usize].iter().map(move |&p| (own, p)))
     }
 
     /// The quads around a node that stands at `at`.
-    fn around(&self, problem: &Problem, node: u32, at: Point) -> impl Iterator<Item = [Point; 4]> {
-        let place = move |n: u32| if n == node { at } else { problem.points[n as usize] };
-        self.around[node as usize].iter().map(move |&q| self.quads[q as usize].map(place))
+    fn patch(&self, problem: &Problem, node: u32, at: Point) -> Patch {
+        let place = |n: u32| if n == node { at } else { problem.points[n as usize] };
+        let halves =
+            |&q: &u32| halves(&self.quads[q as usize].map(place)).map(|half| (Aabb::around(&half), half));
+        Patch { quads: self.around[node as usize].iter().map(halves).collect() }
+    }
+}
+
+/// Quads, each as two triangles within their boxes.
+struct Patch {
+    quads: Vec<[(Aabb, [Point; 3]); 2]>,
+}
+
+impl Patch {
+    /// How far a sample is from these, of which the one at `own` is likely to be the nearest, squared.
+    fn distance_squared(&self, own: usize, sample: Point) -> f64 {
+        let to = |half: [Point; 3]| closest_on_triangle(sample, half).distance_squared(sample);
+        let nearest = self.quads[own].iter().map(|&(_, half)| to(half)).fold(f64::INFINITY, f64::min);
+        let others = self.quads[..own].iter().chain(&self.quads[own + 1..]).flatten();
+        others.fold(nearest, |nearest, (bounds, half)| {
+            if bounds.distance_squared(sample) < nearest { nearest.min(to(*half)) } else { nearest }
+        })
     }
 
-    /// How far a sample is from these, squared.
-    fn distance_squared(&self, problem: &Problem, node: u32, at: Point, sample: Point) -> f64 {
-        let to = |half: [Point; 3]| closest_on_triangle(sample, half).distance_squared(sample);
-        let halves = self.around(problem, node, at).flat_map(|quad| halves(&quad));
-        halves.map(to).fold(f64::INFINITY, f64::min)
+    /// The middles of the triangles.
+    fn middles(&self) -> impl Iterator<Item = Point> + '_ {
+        self.quads.iter().flatten().map(|(_, half)| half.iter().sum::<Point>() / 3.0)
     }
 }

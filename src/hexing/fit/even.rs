@@ -6,7 +6,7 @@ use super::super::correspondence::Correspondence;
 use super::holds::{Hold, Holds};
 use super::target::OnSolid;
 use crate::mesh::HexMesh;
-use crate::optimize::{Problem, even_out};
+use crate::optimize::{Evening, Problem, even_out};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
@@ -16,13 +16,14 @@ pub(super) fn even(
     on: &Correspondence,
     holds: &[Hold],
     solid: &SolidModel,
+    evening: Evening,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let mut problem = Problem::within(&mesh.positions, &mesh.hexes, |_| true, monitor)?;
     problem.order_by(4, |n| on.anchors[n.index()].freedom());
     let target = OnSolid::new(solid, &on.reduction);
     let guide = Holds::kept(&target, &on.anchors, holds, &mesh.positions);
-    let sweeps = even_out(&mut problem, &guide, monitor)?;
+    let sweeps = even_out(&mut problem, &guide, evening, monitor)?;
     problem.write_back(&mut mesh.positions);
     Ok(sweeps)
 }

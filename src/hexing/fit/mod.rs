@@ -12,7 +12,8 @@
 //! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed again, for which nodes that are
 //!    off the solid, or on curves that nobody drew, may go a little farther;
 //! 7. `even`: all is smoothed for the mean;
-//! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places.
+//! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places. Where they stay apart the
+//!    last two steps are made again with other courses, and what comes much nearer counts.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
 //! off the solid and is reported with its distance.
@@ -40,7 +41,7 @@ use super::sheets::SheetReport;
 use crate::geometry::Point;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexId, HexMesh, NodeId};
-use crate::optimize::{OptimizeOptions, smooth};
+use crate::optimize::{Evening, OptimizeOptions, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
 use even::even;
@@ -68,10 +69,14 @@ const PULL: f64 = 0.1;
 const UNLOCK: [f64; 3] = [0.3, 0.5, 0.7];
 const LOOSEN: f64 = 0.9;
 
-/// The share of the work that is done where soft curves are given up, and where all is evened out.
+/// The share of the work that is done where soft curves are given up, and where all is evened out; of what is left then the
+/// share where mesh and solid are brought nearer.
 const SOFTEN: f64 = 0.9;
-const EVEN: f64 = 0.95;
-const NEAR: f64 = 0.98;
+const EVEN: f64 = 0.94;
+const NEAR: f64 = 0.6;
+
+/// A course more of evening out counts where it leaves so much less between mesh and solid.
+const NEARER: f64 = 0.92;
 
 /// How much of the work a round of these is, and unlocking alone.
 const ROUND: f64 = 0.2;
@@ -154,8 +159,7 @@ pub fn fit(
     if report.inverted.is_empty() {
         let mut polish = || {
             let softened = soften(mesh, on, &mut holds, solid, options.max_distance, &part(SOFTEN, EVEN))?;
-            let evened = even(mesh, on, &holds, solid, &part(EVEN, NEAR))?;
-            Ok(softened + evened + near(mesh, on, &holds, solid, options.max_distance, &part(NEAR, 1.0))?)
+            Ok(softened + even_and_near(mesh, on, &holds, solid, options.max_distance, &part(EVEN, 1.0))?)
         };
         match polish() {
             Ok(sweeps) => report.sweeps += sweeps,
@@ -234,6 +238,37 @@ fn fitted(
             .collect(),
     };
     Ok((report, holds))
+}
+
+/// Smooths all for the mean and brings mesh and solid nearer to each other, with one course after the other until nothing
+/// is far; what is nearest counts, or an earlier one that is hardly farther. Returns the number of sweeps.
+fn even_and_near(
+    mesh: &mut HexMesh,
+    on: &Correspondence,
+    holds: &[Hold],
+    solid: &SolidModel,
+    max_distance: f64,
+    monitor: &dyn Monitor,
+) -> Result<usize, Cancelled> {
+    let before = mesh.positions.clone();
+    let (mut sweeps, mut nearest) = (0, (f64::INFINITY, Vec::new()));
+    for (k, evening) in Evening::ALL.into_iter().enumerate() {
+        let range =
+            |from: f64, to: f64| [from, to].map(|share| (k as f64 + share) / Evening::ALL.len() as f64);
+        let part = |from, to| Part { whole: monitor, stage: FITTING, range: range(from, to) };
+        mesh.positions.clone_from(&before);
+        sweeps += even(mesh, on, holds, solid, evening, &part(0.0, NEAR))?;
+        let came = near(mesh, on, holds, solid, max_distance, evening, &part(NEAR, 1.0))?;
+        sweeps += came.sweeps;
+        if k == 0 || came.apart < NEARER * nearest.0 {
+            nearest = (came.apart, mesh.positions.clone());
+        }
+        if came.apart == 0.0 {
+            break;
+        }
+    }
+    mesh.positions = nearest.1;
+    Ok(sweeps)
 }
 
 /// The least scaled Jacobian, if there is one, and the mean.

@@ -7,7 +7,7 @@
 //! solid farther from each other in the end is taken back.
 
 use super::super::correspondence::{Anchor, Correspondence};
-use super::apart::{Apart, Survey, mean_side, samples};
+use super::apart::{Apart, Survey, mean_edge, mean_side, quads, samples};
 use super::holds::Hold;
 use super::progress::Part;
 use super::target::{OnSolid, Target};
@@ -15,14 +15,15 @@ use super::{FITTING, LEAVE, quality};
 use crate::geometry::Point;
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{
-    Constraints, Moved, Problem, Star, Weights, even_out, keep_positive, wake, worst_kept,
+    Constraints, Evening, Moved, Problem, Star, Weights, even_out, keep_positive, wake, worst_kept,
 };
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, parallel};
 
-/// What is farther apart than this share of the farthest, and than so many edges, is brought nearer.
+/// What is farther apart than this share of the farthest, and than so many edges (those there, or the mean of all if that
+/// is longer), is brought nearer.
 const SHARE: f64 = 0.5;
-const LEAST: f64 = 0.1;
+const LEAST: f64 = 0.085;
 
 /// How often each node is tried, before what is inside follows, and how often that is done.
 const TRIES: usize = 8;
@@ -36,7 +37,7 @@ const RINGS: usize = 2;
 
 /// No cell is made worse than this by that, unless it is already: the less, the farther mesh and solid are apart there,
 /// from `LEAST` edges to `MOST`. Nor worse than the worst of all, if that is below `GOOD`, or else this.
-const FLOORS: [f64; 2] = [0.65, 0.35];
+const FLOORS: [f64; 2] = [0.72, 0.35];
 const MOST: f64 = 0.22;
 const GOOD: f64 = 0.45;
 
@@ -51,19 +52,29 @@ const FARTHEST: usize = 8;
 /// Nodes between two questions whether to stop.
 const BATCH: usize = 16;
 
+/// What came of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Nearness {
+    /// Sweeps over nodes.
+    pub(super) sweeps: usize,
+    /// How far mesh and solid are apart where they are farthest, in model units; 0 if that is nowhere too far.
+    pub(super) apart: f64,
+}
+
 /// Moves boundary nodes where mesh and solid are farthest from each other; nodes leave where they belong by no more than
-/// half of `max_distance`, if they are not farther already. Returns the number of sweeps.
+/// half of `max_distance`, if they are not farther already.
 pub(super) fn near(
     mesh: &mut HexMesh,
     on: &Correspondence,
     holds: &[Hold],
     solid: &SolidModel,
     max_distance: f64,
+    evening: Evening,
     monitor: &dyn Monitor,
-) -> Result<usize, Cancelled> {
+) -> Result<Nearness, Cancelled> {
     let samples = samples(mesh, &on.faces, solid, monitor)?;
     let target = OnSolid::new(solid, &on.reduction);
-    let (mut sweeps, mut least, mut best) = (0, f64::INFINITY, Vec::new());
+    let (mut sweeps, mut apart, mut best) = (0, f64::INFINITY, Vec::new());
     for round in 0..=ROUNDS {
         let part = |from: f64, to: f64| Part {
             whole: monitor,
@@ -72,35 +83,43 @@ pub(super) fn near(
         };
         let survey = Survey::new(mesh, &on.faces, solid, &samples, monitor)?;
         let farthest = survey.distances.iter().copied().fold(0.0, f64::max);
-        if farthest > least {
+        if farthest > apart {
             mesh.positions = best;
             break;
         }
-        if round == ROUNDS || farthest > ENOUGH * least {
+        let far = far(mesh, on, holds, &survey, SHARE * farthest);
+        if !far.contains(&true) {
+            apart = 0.0;
             break;
         }
-        (least, best) = (farthest, mesh.positions.clone());
-        let far = far(mesh, on, holds, &survey, SHARE * farthest);
+        let is_last = round == ROUNDS || farthest > ENOUGH * apart;
+        apart = farthest;
+        if is_last {
+            break;
+        }
+        best = mesh.positions.clone();
         let moves = |n: NodeId| far[n.index()];
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
-        let apart = Apart::new(&problem, &on.faces, survey, solid);
+        let gaps = Apart::new(&problem, &on.faces, survey, solid);
         let worst = quality(mesh).0.map_or(GOOD, |worst| worst.min(GOOD));
-        let places = Places { on, holds, target: &target, apart, worst, leave: 0.5 * max_distance };
+        let places = Places { on, holds, target: &target, apart: gaps, worst, leave: 0.5 * max_distance };
         let tries = places.try_all(&mut problem, &part(0.0, 0.7))?;
         problem.write_back(&mut mesh.positions);
         if tries == 0 {
             break;
         }
-        sweeps += tries + follow(mesh, on, &problem, &part(0.7, 1.0))?;
+        sweeps += tries + follow(mesh, on, &problem, evening, &part(0.7, 1.0))?;
     }
-    Ok(sweeps)
+    Ok(Nearness { sweeps, apart })
 }
 
-/// The nodes of the quads that are farther than some edges and `least`, if they may move.
+/// The nodes of the quads that are farther than `LEAST` edges and `least`, if they may move.
 fn far(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], survey: &Survey, least: f64) -> Vec<bool> {
+    let quads = quads(mesh, &on.faces);
+    let mean = mean_edge(&quads);
     let mut is_far = vec![false; mesh.positions.len()];
-    for ((quad, _), &distance) in on.faces.iter().zip(&survey.distances) {
-        let edge = mean_side(&quad.map(|n| mesh.positions[n.index()]));
+    for (((quad, _), places), &distance) in on.faces.iter().zip(&quads).zip(&survey.distances) {
+        let edge = mean_side(places).max(mean);
         if distance > least.max(LEAST * edge) {
             quad.iter().for_each(|n| is_far[n.index()] = true);
         }
@@ -114,6 +133,7 @@ fn follow(
     mesh: &mut HexMesh,
     on: &Correspondence,
     moved: &Problem,
+    evening: Evening,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let mut is_near = vec![false; mesh.positions.len()];
@@ -126,7 +146,7 @@ fn follow(
     }
     let moves = |n: NodeId| is_near[n.index()] && on.anchors[n.index()] == Anchor::Inside;
     let mut inside = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
-    let sweeps = even_out(&mut inside, &Constraints::none(mesh.positions.len()), monitor)?;
+    let sweeps = even_out(&mut inside, &Constraints::none(mesh.positions.len()), evening, monitor)?;
     inside.write_back(&mut mesh.positions);
     Ok(sweeps)
 }
@@ -209,9 +229,10 @@ impl Places<'_> {
             foot.map_or(0.0, |foot| foot.point.distance(p))
         };
         let leash = from_foot(from).max(self.leave.min(LEAVE * problem.edge(node)));
+        let reach = self.apart.reach(from);
         let stays = |to: Point| match self.holds[id.index()] {
             // Planes go on beyond their surface.
-            Hold::Held => self.apart.is_no_farther(to, from),
+            Hold::Held => self.apart.is_within(to, reach),
             Hold::Leashed => from_foot(to) <= leash,
             _ => true,
         };
@@ -269,7 +290,7 @@ impl Places<'_> {
 mod tests {
     use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-    use super::super::{FitOptions, NEAR, fit};
+    use super::super::{EVEN, FitOptions, fit};
     use super::*;
     use crate::hexing::correspondence::correspond;
     use crate::hexing::sheets::insert_sheets;
@@ -319,7 +340,10 @@ mod tests {
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let before = farthest(&mesh, &on, &solid);
         assert!((0.045..0.055).contains(&before), "a fifth of an edge and more: {before}");
-        assert!(near(&mut mesh, &on, &held(&on), &solid, f64::INFINITY, &Silent).unwrap() > 0);
+        assert!(
+            near(&mut mesh, &on, &held(&on), &solid, f64::INFINITY, Evening::ALL[0], &Silent).unwrap().sweeps
+                > 0
+        );
         let after = farthest(&mesh, &on, &solid);
         assert!(after < 0.4 * before, "{before} {after}");
         for (anchor, p) in on.anchors.iter().zip(&mesh.positions) {
@@ -338,7 +362,7 @@ mod tests {
             held(&on).into_iter().map(|hold| if hold == Hold::Held { Hold::Leashed } else { hold }).collect();
         let off = |max_distance: f64| {
             let mut mesh = mesh.clone();
-            near(&mut mesh, &on, &leashed, &solid, max_distance, &Silent).unwrap();
+            near(&mut mesh, &on, &leashed, &solid, max_distance, Evening::ALL[0], &Silent).unwrap();
             let boundary = (0..on.anchors.len()).filter(|&n| on.anchors[n] != Anchor::Inside);
             boundary.map(|n| solid.nearest(mesh.positions[n]).distance).fold(0.0, f64::max)
         };
@@ -356,7 +380,8 @@ mod tests {
             p.x = 1.0;
         });
         let before = mesh.positions.clone();
-        assert_eq!(near(&mut mesh, &on, &held(&on), &solid, f64::INFINITY, &Silent), Ok(0));
+        let came = near(&mut mesh, &on, &held(&on), &solid, f64::INFINITY, Evening::ALL[0], &Silent);
+        assert_eq!(came, Ok(Nearness { sweeps: 0, apart: 0.0 }));
         assert_eq!(mesh.positions, before);
     }
 
@@ -372,7 +397,7 @@ mod tests {
 
     impl Monitor for AtLast {
         fn progress(&self, _: Stage, fraction: f64) {
-            self.0.fetch_or(fraction >= NEAR, Relaxed);
+            self.0.fetch_or(fraction > EVEN, Relaxed);
         }
 
         fn cancelled(&self) -> bool {
