@@ -78,7 +78,7 @@ pub(crate) struct Factors<S: Simd> {
 impl Weights {
     /// n.
     pub(crate) fn power(self) -> f64 {
-        libm::ldexp(1.0, self.doublings)
+        if self.doublings < 0 { 0.5 } else { f64::from(1 << self.doublings) }
     }
 }
 

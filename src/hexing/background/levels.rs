@@ -58,7 +58,7 @@ pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> 
     for (_, extent) in round {
         [extent.low, extent.middle(), extent.high].into_iter().for_each(|at| levels.add(at, MERGED_AROUND));
     }
-    levels.at.sort_by(f64::total_cmp);
+    levels.at.sort_unstable_by(f64::total_cmp);
     levels.at
 }
 

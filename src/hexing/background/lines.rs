@@ -54,21 +54,21 @@ fn steps(gap: f64, edge: f64, shift: f64) -> u32 {
 fn held(planes: &[Plane], edge: f64) -> Vec<f64> {
     let mut groups = groups(planes, edge);
     groups.retain(|group| group.area > LEAST_AREA * edge * edge);
-    groups.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.at.total_cmp(&b.at)));
+    groups.sort_unstable_by(|a, b| b.area.total_cmp(&a.area).then(a.at.total_cmp(&b.at)));
     let mut held: Vec<f64> = Vec::new();
     for group in groups {
         if held.iter().all(|line| (line - group.at).abs() >= LEAST_GAP * edge) {
             held.push(group.at);
         }
     }
-    held.sort_by(f64::total_cmp);
+    held.sort_unstable_by(f64::total_cmp);
     held
 }
 
 /// Surfaces of one plane as one: where the largest is, with the area of all.
 fn groups(planes: &[Plane], edge: f64) -> Vec<Plane> {
     let mut sorted = planes.to_vec();
-    sorted.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.area.total_cmp(&b.area)));
+    sorted.sort_unstable_by(|a, b| a.at.total_cmp(&b.at).then(a.area.total_cmp(&b.area)));
     let of = |group: &[Plane]| {
         let largest = group.iter().fold(group[0], |a, &b| if b.area > a.area { b } else { a });
         Plane { at: largest.at, area: group.iter().map(|plane| plane.area).sum() }

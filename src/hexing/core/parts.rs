@@ -28,7 +28,7 @@ pub(super) fn keep_bodies(
     // The largest first, of equal ones the one with the first cell.
     let mut crumbs: Vec<(u32, Part)> =
         crumbs.into_iter().map(|part| (body(part.deepest as usize), part)).collect();
-    crumbs.sort_by_key(|(body, part)| (*body, std::cmp::Reverse(part.cells.len()), part.cells[0]));
+    crumbs.sort_unstable_by_key(|(body, part)| (*body, std::cmp::Reverse(part.cells.len()), part.cells[0]));
     let crumbs = crumbs.chunk_by_mut(|a, b| a.0 == b.0);
     let crumbs =
         crumbs.flat_map(|of_body| of_body[1..].iter_mut().map(|(_, part)| std::mem::take(&mut part.cells)));

@@ -57,7 +57,7 @@ pub(super) fn level(
         if moves.is_empty() {
             return Ok(count);
         }
-        moves.sort_by(|a, b| b.gain.total_cmp(&a.gain).then_with(|| a.cells.cmp(&b.cells)));
+        moves.sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain).then_with(|| a.cells.cmp(&b.cells)));
         awake.fill(false);
         let mut changed = vec![false; cells.len()];
         for Move { cells: moved, .. } in moves {

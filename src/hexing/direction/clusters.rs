@@ -68,7 +68,7 @@ fn facets(solid: &SolidModel) -> (Vec<u32>, Vec<Point>) {
     let areas: Vec<Point> = (0..solid.triangles().len()).map(|t| area_vector(&solid.corners_of(t))).collect();
     let sizes: Vec<f64> = areas.iter().map(|a| a.length()).collect();
     let mut by_size: Vec<u32> = (0..areas.len() as u32).collect();
-    by_size.sort_by(|&a, &b| sizes[b as usize].total_cmp(&sizes[a as usize]).then(a.cmp(&b)));
+    by_size.sort_unstable_by(|&a, &b| sizes[b as usize].total_cmp(&sizes[a as usize]).then(a.cmp(&b)));
     let mut facet_of = vec![u32::MAX; areas.len()];
     let mut facets = Vec::new();
     let mut front = Vec::new();

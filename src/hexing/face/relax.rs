@@ -101,7 +101,7 @@ fn ends(graph: &Graph, arcs: &[Arc]) -> Vec<Vec<End>> {
         ends[points[points.len() - 1] as usize].push(End { arc, way: out(last, Box::new(back), first) });
     }
     for at in &mut ends {
-        at.sort_by(|a, b| angle(a.way).total_cmp(&angle(b.way)).then(a.arc.cmp(&b.arc)));
+        at.sort_unstable_by(|a, b| angle(a.way).total_cmp(&angle(b.way)).then(a.arc.cmp(&b.arc)));
     }
     ends
 }

@@ -297,3 +297,27 @@ impl Patch {
         self.quads.iter().flatten().map(|(_, half)| half.iter().sum::<Point>() / 3.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The boxes of the others only save work.
+    #[test]
+    fn the_distance_from_a_patch_is_that_from_its_nearest_half() {
+        let height = |x: f64, y: f64| 0.3 * libm::sin(3.0 * x) * libm::sin(2.0 * y + 1.0);
+        let at = |x: f64, y: f64| Point::new(x, y, height(x, y));
+        let quad = |x: f64, y: f64| [at(x, y), at(x + 1.0, y), at(x + 1.0, y + 1.0), at(x, y + 1.0)];
+        let quads = [quad(0.0, 0.0), quad(-1.0, 0.0), quad(-1.0, -1.0), quad(0.0, -1.0)].map(|q| halves(&q));
+        let patch = Patch { quads: quads.map(|of| of.map(|half| (Aabb::around(&half), half))).to_vec() };
+        for k in 0..300 {
+            let [x, y, z] = [7, 11, 13].map(|n| f64::from(k % n) / f64::from(n) * 3.0 - 1.5);
+            let sample = Point::new(x, y, z);
+            let nearest = quads.as_flattened().iter().map(|&half| closest_on_triangle(sample, half));
+            let expected = nearest.map(|p| p.distance_squared(sample)).fold(f64::INFINITY, f64::min);
+            for own in 0..4 {
+                assert!((patch.distance_squared(own, sample) - expected).abs() < 1e-12, "{sample} {own}");
+            }
+        }
+    }
+}
