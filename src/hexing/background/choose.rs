@@ -47,7 +47,7 @@ pub struct Choice {
 }
 
 /// A swept mesh has to capture so much more of the area than a grid: a grid's cells are better.
-const GAIN: f64 = 0.05;
+const GAIN: f64 = 0.03;
 /// A swept mesh with worse quads is no choice.
 const LEAST_QUAD: f64 = 0.15;
 

@@ -2,6 +2,9 @@
 //!
 //! A curve along the direction becomes a point. Edges where the surface turns from facing the direction to facing
 //! against it, or to lying along it, bound what is covered; many of them are of feature curves.
+//!
+//! Top and foot of a wall along the direction that is lower than a quarter of an edge stand in one layer of a sweep: of
+//! engravings and the like only what bounds the covered region is seen, or cells would be small and poor for nothing.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -11,10 +14,13 @@ use super::graph::{Graph, Segment};
 use super::scale::Projection;
 use super::shadow::Shadow;
 use crate::hexing::direction::PERPENDICULAR;
-use crate::solid::{Curve, SolidModel};
+use crate::solid::{Curve, SolidModel, Surface};
 
 /// A curve that is shorter than this seen along the direction is a point: 0.15 h.
 const POINT: f64 = 0.075;
+
+/// Walls along the direction that are lower than this have no top and foot of their own: 0.25 h, as layers have.
+const LOW: f64 = 0.125;
 
 /// How far beside a curve it is looked whether something is covered there: 0.02 h.
 const ASIDE: f64 = 0.01;
@@ -35,10 +41,15 @@ pub(super) struct Projected {
 /// Projects all feature curves and rims.
 pub(super) fn project(solid: &SolidModel, projection: &Projection, shadow: &Shadow) -> Projected {
     let mut rim = rim_edges(solid, projection);
+    let low = low_walls(solid, projection);
     let mut projected = Projected::default();
     for curve in solid.curves() {
-        let flat: Vec<DVec2> =
+        let mut flat: Vec<DVec2> =
             curve.vertices.iter().map(|&v| projection.unit_from_model(solid.points()[v as usize])).collect();
+        flat.dedup_by(|a, b| a.distance(*b) < 1e-9);
+        if curve.sides.iter().any(|side| low[side.index()]) && !is_outline(&flat, shadow) {
+            continue;
+        }
         let extent = flat.iter().fold(0.0_f64, |extent, p| extent.max(p.distance(flat[0])));
         if extent < POINT {
             projected.points.push(flat[0]);
@@ -63,6 +74,24 @@ pub(super) fn project(solid: &SolidModel, projection: &Projection, shadow: &Shad
     projected.outlines = outlines.len();
     projected.rims = [outlines, others].concat();
     projected
+}
+
+/// Of each surface: is it a wall along the direction so low that its top and foot share a layer?
+fn low_walls(solid: &SolidModel, projection: &Projection) -> Vec<bool> {
+    let along = projection.direction();
+    let is_low = |surface: &Surface| {
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for &t in &surface.triangles {
+            if solid.normals()[t as usize].dot(along).abs() > PERPENDICULAR {
+                return false;
+            }
+            for p in solid.corners_of(t as usize) {
+                (least, most) = (least.min(p.dot(along)), most.max(p.dot(along)));
+            }
+        }
+        most - least < projection.scale.length_from_unit(LOW)
+    };
+    solid.surfaces().iter().map(is_low).collect()
 }
 
 /// Is most of the curve's length between what is covered and what is not?
@@ -119,4 +148,34 @@ fn chains(solid: &SolidModel, projection: &Projection, rim: &BTreeSet<[u32; 2]>)
     }
     let arcs = graph.arcs();
     arcs.iter().map(|arc| arc.points.iter().map(|&p| graph.points[p as usize]).collect()).collect()
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use crate::Silent;
+    use crate::geometry::Point;
+    use crate::hexing::face::{PrincipalFace, RegionOptions, principal_face};
+    use crate::solid::testing::{moved, solid, voxels};
+
+    /// The face along z, with edges of 1, of a plate with a slot from x = 4.4 to 8.4.
+    fn slotted(thickness: f64, depth: f64) -> PrincipalFace {
+        let slot = |[x, y, z]: [i32; 3]| z > 0 && (4..8).contains(&x) && (3..9).contains(&y);
+        let plate = moved(voxels([12, 12, 2], |at| !slot(at)), |p| {
+            let x = if (4.0..=8.0).contains(&p.x) { p.x + 0.4 } else { p.x };
+            Point::new(x, p.y, [0.0, thickness - depth, thickness][p.z as usize])
+        });
+        principal_face(&solid(&plate), Point::Z, &RegionOptions::new(1.0), &Silent).unwrap()
+    }
+
+    #[test]
+    fn shallow_slots_are_not_seen_and_deep_ones_are() {
+        let shallow = slotted(3.0, 0.2);
+        assert!(shallow.mesh.worst > 0.99, "{}", shallow.mesh.worst);
+        // The outline of a plate that is as low is seen all the same.
+        assert_eq!(shallow.mesh, slotted(0.24, 0.2).mesh);
+        let beside = |PrincipalFace { mesh, axes: [u, v, _], .. }: PrincipalFace| {
+            mesh.points.iter().filter(|p| ((u * p.x + v * p.y).x - 4.4).abs() < 1e-9).count()
+        };
+        assert_eq!([beside(shallow), beside(slotted(3.0, 0.5))], [0, 7]);
+    }
 }
