@@ -8,6 +8,7 @@ pub mod background;
 pub mod core;
 pub mod correspondence;
 pub mod direction;
+mod extent;
 pub mod face;
 pub mod fit;
 pub mod sheets;

@@ -9,10 +9,10 @@
 //! What is too close to a level before has none.
 
 use crate::geometry::Point;
+use crate::hexing::extent::{Extent, ONE_LEVEL};
 use crate::solid::{Curve, SolidModel, Surface, SurfaceClass};
 
-/// Levels closer than this, in edge lengths, are one; those of holes and pins, closer than that.
-const MERGED: f64 = 0.25;
+/// Levels of holes and pins closer than this to others, in edge lengths, are left out; all others closer than [`ONE_LEVEL`].
 const MERGED_AROUND: f64 = 0.4;
 
 /// A curve whose points are no farther apart along the direction than this, in edge lengths, is across it.
@@ -37,11 +37,10 @@ pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> 
     let mut levels = Levels { at: vec![low, high], edge_length };
     let (mut planes, mut curves, mut round) = (Vec::new(), Vec::new(), Vec::new());
     for surface in solid.surfaces() {
-        let extent =
-            Extent::of(surface.triangles.iter().flat_map(|&t| solid.corners_of(t as usize)), direction);
+        let extent = Extent::of_surface(solid, surface, direction);
         if is_across(surface, direction) {
             planes.push((surface.area, extent));
-        } else if turns_around(solid, surface, direction) && extent.is_thick(edge_length) {
+        } else if turns_around(solid, surface, direction) && is_thick(extent, edge_length) {
             round.push((surface.area, extent));
         }
     }
@@ -54,7 +53,7 @@ pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> 
     for list in [&mut planes, &mut curves, &mut round] {
         list.sort_by(|a, b| b.0.total_cmp(&a.0));
     }
-    planes.iter().chain(&curves).for_each(|(_, extent)| levels.add(extent.middle(), MERGED));
+    planes.iter().chain(&curves).for_each(|(_, extent)| levels.add(extent.middle(), ONE_LEVEL));
     for (_, extent) in round {
         [extent.low, extent.middle(), extent.high].into_iter().for_each(|at| levels.add(at, MERGED_AROUND));
     }
@@ -77,32 +76,9 @@ impl Levels {
     }
 }
 
-/// From where to where something reaches along the direction.
-#[derive(Clone, Copy)]
-struct Extent {
-    low: f64,
-    high: f64,
-}
-
-impl Extent {
-    fn of(points: impl Iterator<Item = Point>, direction: Point) -> Self {
-        let none = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
-        points
-            .map(|p| p.dot(direction))
-            .fold(none, |Self { low, high }, at| Self { low: low.min(at), high: high.max(at) })
-    }
-
-    fn thickness(self) -> f64 {
-        self.high - self.low
-    }
-
-    fn middle(self) -> f64 {
-        0.5 * (self.low + self.high)
-    }
-
-    fn is_thick(self, edge_length: f64) -> bool {
-        (THICK[0] * edge_length..THICK[1] * edge_length).contains(&self.thickness())
-    }
+/// Is what reaches so far about as thick as an edge is long?
+fn is_thick(extent: Extent, edge_length: f64) -> bool {
+    (THICK[0] * edge_length..THICK[1] * edge_length).contains(&extent.thickness())
 }
 
 /// Is a surface planar, and across the direction?

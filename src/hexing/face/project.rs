@@ -13,14 +13,13 @@ use glam::DVec2;
 use super::graph::{Graph, Segment};
 use super::scale::Projection;
 use super::shadow::Shadow;
+use crate::geometry::Point;
 use crate::hexing::direction::PERPENDICULAR;
+use crate::hexing::extent::{Extent, ONE_LEVEL};
 use crate::solid::{Curve, SolidModel, Surface};
 
 /// A curve that is shorter than this seen along the direction is a point: 0.15 h.
 const POINT: f64 = 0.075;
-
-/// Walls along the direction that are lower than this have no top and foot of their own: 0.25 h, as layers have.
-const LOW: f64 = 0.125;
 
 /// How far beside a curve it is looked whether something is covered there: 0.02 h.
 const ASIDE: f64 = 0.01;
@@ -46,7 +45,7 @@ pub(super) fn project(solid: &SolidModel, projection: &Projection, shadow: &Shad
     for curve in solid.curves() {
         let mut flat: Vec<DVec2> =
             curve.vertices.iter().map(|&v| projection.unit_from_model(solid.points()[v as usize])).collect();
-        flat.dedup_by(|a, b| a.distance(*b) < 1e-9);
+        without_doubles(&mut flat);
         if curve.sides.iter().any(|side| low[side.index()]) && !is_outline(&flat, shadow) {
             continue;
         }
@@ -62,9 +61,10 @@ pub(super) fn project(solid: &SolidModel, projection: &Projection, shadow: &Shad
     for edge in solid.curves().iter().flat_map(edges) {
         rim.remove(&edge);
     }
-    projected.rims.extend(chains(solid, projection, &rim));
+    let mut chains = chains(solid, projection, &rim);
+    chains.iter_mut().for_each(without_doubles);
+    projected.rims.extend(chains);
     for curves in [&mut projected.rims, &mut projected.features] {
-        curves.iter_mut().for_each(|curve| curve.dedup_by(|a, b| a.distance(*b) < 1e-9));
         curves.retain(|curve| curve.len() > 1);
         // Stable, so that curves of one length stay in the order of the solid.
         curves.sort_by(|a, b| length(b).total_cmp(&length(a)));
@@ -76,22 +76,18 @@ pub(super) fn project(solid: &SolidModel, projection: &Projection, shadow: &Shad
     projected
 }
 
-/// Of each surface: is it a wall along the direction so low that its top and foot share a layer?
+/// Leaves out points that are where the one before is.
+fn without_doubles(curve: &mut Vec<DVec2>) {
+    curve.dedup_by(|a, b| a.distance(*b) < 1e-9);
+}
+
+/// Of each surface: is it a wall along the direction so low that its top and foot are one level?
 fn low_walls(solid: &SolidModel, projection: &Projection) -> Vec<bool> {
     let along = projection.direction();
-    let is_low = |surface: &Surface| {
-        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for &t in &surface.triangles {
-            if solid.normals()[t as usize].dot(along).abs() > PERPENDICULAR {
-                return false;
-            }
-            for p in solid.corners_of(t as usize) {
-                (least, most) = (least.min(p.dot(along)), most.max(p.dot(along)));
-            }
-        }
-        most - least < projection.scale.length_from_unit(LOW)
-    };
-    solid.surfaces().iter().map(is_low).collect()
+    let low = ONE_LEVEL * projection.scale.edge_length();
+    let is_wall = |s: &Surface| s.triangles.iter().all(|&t| facing(solid, t as usize, along) == 0);
+    let is_low = |s: &Surface| Extent::of_surface(solid, s, along).thickness() < low;
+    solid.surfaces().iter().map(|s| is_wall(s) && is_low(s)).collect()
 }
 
 /// Is most of the curve's length between what is covered and what is not?
@@ -117,12 +113,15 @@ fn is_rim(curve: &Curve, rim: &BTreeSet<[u32; 2]>) -> bool {
     2 * edges(curve).filter(|edge| rim.contains(edge)).count() > curve.vertices.len() - 1
 }
 
+/// Does a triangle face the direction (1), against it (-1), or lie along it (0)?
+fn facing(solid: &SolidModel, triangle: usize, direction: Point) -> i8 {
+    let along = solid.normals()[triangle].dot(direction);
+    i8::from(along > PERPENDICULAR) - i8::from(along < -PERPENDICULAR)
+}
+
 /// The edges of triangles where the surface turns from facing the direction to lying along it or facing against it.
 fn rim_edges(solid: &SolidModel, projection: &Projection) -> BTreeSet<[u32; 2]> {
-    let facing = |t: usize| {
-        let along = solid.normals()[t].dot(projection.direction());
-        i8::from(along > PERPENDICULAR) - i8::from(along < -PERPENDICULAR)
-    };
+    let facing = |t: usize| facing(solid, t, projection.direction());
     let mut rim = BTreeSet::new();
     for (t, triangle) in solid.triangles().iter().enumerate() {
         for side in 0..3 {

@@ -42,6 +42,11 @@ impl Scale {
         p * self.unit + self.middle
     }
 
+    /// In model units.
+    pub(super) fn edge_length(&self) -> f64 {
+        0.5 * self.unit
+    }
+
     pub(super) fn length_from_unit(&self, length: f64) -> f64 {
         length * self.unit
     }
