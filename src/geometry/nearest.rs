@@ -1,4 +1,10 @@
 //! The point of a surface that is nearest to another point.
+//!
+//! Whoever asks mostly asks again nearby. So each thread remembers where its last searches ended, and begins the next one
+//! with that facet: with a short distance from the first most of the tree need not be looked at. What is found does not
+//! depend on where it began.
+
+use std::cell::Cell;
 
 use super::{Aabb, Point, closest_on_triangle};
 use crate::{Cancelled, Monitor, Silent};
@@ -11,6 +17,17 @@ const MANY: usize = 1 << 14;
 
 /// More levels than a tree of 2^32 facets has, which are split in halves.
 const DEPTH: usize = 48;
+
+/// How many trees a thread remembers its last search in, at most.
+const REMEMBERED: usize = 64;
+
+/// A facet's distance may be computed less than that of the box around it by this share of the greatest coordinate.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+thread_local! {
+    /// Where the last searches ended, among the facets in the order of the tree.
+    static LAST: [Cell<u32>; REMEMBERED] = const { [const { Cell::new(0) }; REMEMBERED] };
+}
 
 /// A piece of a surface.
 pub trait Facet {
@@ -40,6 +57,8 @@ pub struct NearestFacet<F> {
     nodes: Vec<Node>,
     /// In the order of the tree.
     facets: Vec<Numbered<F>>,
+    /// The greatest coordinate, either way.
+    extent: f64,
 }
 
 /// Finds the nearest of many triangles.
@@ -64,6 +83,20 @@ enum Below {
     Right(u32),
     /// The first facet, and how many there are.
     Leaf(u32, u32),
+}
+
+/// The point of a facet that is closest to another, how far that is, squared, and the facet's place in the tree.
+struct Closest {
+    distance: f64,
+    place: usize,
+    point: Point,
+}
+
+impl Closest {
+    /// Boxes that are farther, squared, hold nothing that is computed to be as near.
+    fn limit(&self, rounding: f64) -> f64 {
+        self.distance + rounding * (2.0 * self.distance.sqrt() + rounding)
+    }
 }
 
 /// The facet that is nearest to a point.
@@ -96,10 +129,13 @@ impl<F: Facet> NearestFacet<F> {
             facet,
             index: u32::try_from(index).expect("more than 2^32 facets"),
         });
-        let mut all = Self { nodes: Vec::new(), facets: numbered.collect() };
+        let mut all = Self { nodes: Vec::new(), facets: numbered.collect(), extent: 0.0 };
         let mut facets = std::mem::take(&mut all.facets);
         if !facets.is_empty() {
             all.branch(&mut facets, 0, monitor)?;
+        }
+        if let Some(Node { bounds, .. }) = all.nodes.first() {
+            all.extent = bounds.min.abs().max(bounds.max.abs()).max_element();
         }
         Ok(Self { facets, ..all })
     }
@@ -142,44 +178,61 @@ impl<F: Facet> NearestFacet<F> {
         self.found(p).map(|(numbered, _)| &numbered.facet)
     }
 
+    /// Of all facets that with the least distance as it is computed, and of these the first.
     fn found(&self, p: Point) -> Option<(&Numbered<F>, Point)> {
-        let mut best: Option<(f64, &Numbered<F>, Point)> = None;
+        let last_facet = self.facets.len().checked_sub(1)?;
+        // Two trees that share a place only spoil each other's beginning.
+        let memory = std::ptr::from_ref(self).addr() / align_of_val(self) % REMEMBERED;
+        let first = LAST.with(|last| last[memory].get() as usize).min(last_facet);
+        let rounding = ROUNDING * (self.extent + p.abs().max_element());
+        let mut best = self.closest(first, p);
+        let mut limit = best.limit(rounding);
         let mut waiting = [(0.0, 0); DEPTH];
-        let mut count = usize::from(!self.nodes.is_empty());
+        let mut count = 1;
         while count > 0 {
             count -= 1;
-            let (distance, mut at) = waiting[count];
-            if best.is_some_and(|(nearest, ..)| distance > nearest) {
-                continue;
-            }
+            let (mut distance, mut at) = waiting[count];
             // Down to the nearer half each time, while the other waits.
-            while let Below::Right(right) = self.nodes[at as usize].below {
+            while let Below::Right(right) = self.nodes[at as usize].below
+                && distance <= limit
+            {
                 let mut halves =
                     [at + 1, right].map(|k| (self.nodes[k as usize].bounds.distance_squared(p), k));
                 if halves[1].0 < halves[0].0 {
                     halves.swap(0, 1);
                 }
-                waiting[count] = halves[1];
-                count += 1;
-                at = halves[0].1;
+                if halves[1].0 <= limit {
+                    waiting[count] = halves[1];
+                    count += 1;
+                }
+                (distance, at) = halves[0];
             }
             let Below::Leaf(first, len) = self.nodes[at as usize].below else { continue };
-            for numbered in &self.facets[first as usize..(first + len) as usize] {
+            if distance > limit {
+                continue;
+            }
+            for place in first as usize..(first + len) as usize {
+                let numbered = &self.facets[place];
                 let bounds = Aabb::around(numbered.facet.corners());
-                if best.is_some_and(|(nearest, ..)| bounds.distance_squared(p) > nearest) {
+                if bounds.distance_squared(p) > limit {
                     continue;
                 }
-                let point = numbered.facet.closest(p);
-                let distance = point.distance_squared(p);
-                let is_nearer = |(nearest, other, _): (f64, &Numbered<F>, Point)| {
-                    distance < nearest || distance == nearest && numbered.index < other.index
-                };
-                if best.is_none_or(is_nearer) {
-                    best = Some((distance, numbered, point));
+                let other = self.closest(place, p);
+                let is_first = || numbered.index < self.facets[best.place].index;
+                if other.distance < best.distance || other.distance == best.distance && is_first() {
+                    limit = other.limit(rounding);
+                    best = other;
                 }
             }
         }
-        best.map(|(_, numbered, point)| (numbered, point))
+        LAST.with(|last| last[memory].set(best.place as u32));
+        Some((&self.facets[best.place], best.point))
+    }
+
+    /// The point of the facet at this place of the tree that is closest to `p`.
+    fn closest(&self, place: usize, p: Point) -> Closest {
+        let point = self.facets[place].facet.closest(p);
+        Closest { distance: point.distance_squared(p), place, point }
     }
 
     /// The point of a facet that is closest to `p`; `None` if there are no facets.
@@ -232,6 +285,22 @@ mod tests {
             assert_eq!(twice[found.facet], *t);
             assert!(found.facet < 50);
         }
+    }
+
+    /// In other orders, on other threads, and after searches in other trees.
+    #[test]
+    fn what_is_found_does_not_depend_on_the_searches_before() {
+        let triangles: Vec<[Point; 3]> = sheet(9).into_iter().chain(sheet(9)).collect();
+        let points: Vec<Point> = (0..60)
+            .map(|k| Point::new(f64::from(k % 10), f64::from(k / 10), f64::from(k % 3) - 1.0) / 9.0)
+            .collect();
+        let index = NearestTriangle::new(triangles.iter().copied());
+        let forward: Vec<_> = points.iter().map(|&p| index.nearest(p)).collect();
+        let mut backward: Vec<_> = points.iter().rev().map(|&p| index.nearest(p)).collect();
+        backward.reverse();
+        assert_eq!(forward, backward);
+        let anew = |p: Point| NearestTriangle::new(triangles.iter().copied()).nearest(p);
+        assert!(points.iter().zip(&forward).all(|(&p, found)| anew(p) == *found));
     }
 
     #[test]

@@ -87,7 +87,7 @@ pub(super) fn attempt(
         mean: fitted.mean,
         distance: distances(&mesh, solid, monitor)?,
     });
-    let far = too_far(&mesh, solid, tolerance(options), monitor)?;
+    let far = too_far(&mesh, solid, tolerance(options, site.taste), monitor)?;
     let failures = misses(site, plan.kind, &cut, &on.reduction, far, &cells);
     let Correspondence { faces, edges, reduction, .. } = on;
     Ok((report, Some(Meshed { mesh, faces, edges, reduction, failures })))

@@ -1,12 +1,12 @@
 //! A mesh of one body: attempts, until there is nothing left to mend (design, section 5; issue: refine and retry).
 //!
 //! 1. The background of choice, as it is.
-//! 2. Where that is a sweep whose cells are bad, or that is too far from the solid somewhere, a grid instead.
+//! 2. Where that is a sweep that is far from the solid somewhere, a grid instead.
 //! 3. Where the best missed something that somebody drew, or is too far from the solid, cells a level smaller there,
 //!    as often as the options allow, and as long as it helps. Of a core that is not of the solid's kind it is not always
 //!    known where it differs: then thin walls, narrow gaps and short curves are refined. Where that would be many
 //!    cells, what was lost alone.
-//! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
+//! 4. Where cells of a sweep are bad, a grid; where those of a grid are, grids whose lines stand elsewhere.
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
 //!    octree, and 3 for that.
 //!
@@ -79,13 +79,16 @@ pub(super) fn mesh_body(
         }
         made => made?,
     }
-    if site.may_be_grid() && !search.is_good(ASTRAY * options.edge_length) {
+    if site.may_be_grid() && search.is_astray() {
         search.another(site.plan(Background::Grid), search.limit())?;
     }
     search.refine(options.max_hexes)?;
+    if site.may_be_grid() && !search.is_good() && !search.has_tried(Background::Grid) {
+        search.another(site.plan(Background::Grid), search.limit())?;
+    }
     if search.is_on(Background::Grid) {
         for shift in SHIFTS {
-            if !search.is_good(f64::INFINITY) {
+            if !search.is_good() {
                 search.another(Plan { shift, ..site.plan(Background::Grid) }, search.limit())?;
             }
         }
@@ -249,10 +252,22 @@ impl Search<'_> {
         })
     }
 
-    /// Is there nothing that another try could mend, where the mesh may be so far off?
-    fn is_good(&self, farthest: f64) -> bool {
+    /// Has something been made of a background of this kind?
+    fn has_tried(&self, kind: Background) -> bool {
+        self.attempts.iter().any(|attempt| attempt.background == kind)
+    }
+
+    /// Is the best attempt so far off that it does not show some part of the solid?
+    fn is_astray(&self) -> bool {
+        self.best_report().is_none_or(|best| {
+            off_euler(&best.core) > 0 || distance(best) > ASTRAY * self.site.options.edge_length
+        })
+    }
+
+    /// Is there nothing that another try could mend?
+    fn is_good(&self) -> bool {
         self.best_report().is_some_and(|best| {
-            let is_near = !is_far(best, self.site.options) && distance(best) <= farthest;
+            let is_near = !is_far(best, self.site.options);
             off_euler(&best.core) == 0 && is_near && worst(best) >= self.site.taste.good
         })
     }

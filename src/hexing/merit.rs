@@ -25,6 +25,8 @@ pub(super) struct Taste {
     pub(super) good: f64,
     /// What the share of the curves and surfaces that are lost weighs.
     lost: f64,
+    /// Mesh and solid may be so many edges from each other before smaller cells are tried.
+    pub(super) near: f64,
     /// What shows less than this share of the curves and surfaces is not what was asked for.
     pub(super) shown: f64,
     /// An attempt that loses a greater share of the features than another by this is given up before it is fitted.
@@ -33,10 +35,11 @@ pub(super) struct Taste {
 
 impl Taste {
     /// For solids that somebody drew.
-    const DRAWN: Self = Self { good: 0.35, lost: 1.0, shown: 0.5, loss: 0.02 };
+    const DRAWN: Self = Self { good: 0.35, lost: 1.0, near: 0.2, shown: 0.5, loss: 0.02 };
 
-    /// For free forms: nobody drew their curves, and nothing tells cells where to be poor.
-    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, shown: 0.0, loss: 1.0 };
+    /// For free forms: nobody drew their curves, and nothing tells cells where to be poor. Smaller cells take more of the mean
+    /// than what they show of a scan is worth.
+    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, near: 0.45, shown: 0.0, loss: 1.0 };
 
     /// For this solid.
     pub(super) fn of(solid: &SolidModel) -> Self {

@@ -4,6 +4,7 @@ use super::background::{Background, Failure, OctreeMesh};
 use super::core::Core;
 use super::correspondence::{CurveFate, LostCurve, Reason, Reduction};
 use super::ground::Site;
+use super::merit::Taste;
 use super::options::HexingOptions;
 use crate::geometry::{Aabb, BoxIndex, Point};
 use crate::mesh::topology::hex_boundary;
@@ -11,12 +12,10 @@ use crate::mesh::{HexMesh, NodeId, Triangles, samples_beyond};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
-/// Edges: where mesh and solid are farther from each other than this, a feature is not shown that smaller cells may show.
-const NEAR: f64 = 0.2;
-
-/// How far mesh and solid may be from each other before smaller cells are tried.
-pub(super) fn tolerance(options: &HexingOptions) -> f64 {
-    options.max_distance.unwrap_or(NEAR * options.edge_length)
+/// How far mesh and solid may be from each other before smaller cells are tried: beyond that a feature is not shown that
+/// these may show.
+pub(super) fn tolerance(options: &HexingOptions, taste: Taste) -> f64 {
+    options.max_distance.unwrap_or(taste.near * options.edge_length)
 }
 
 /// A closed curve needs so many edges to be routed.

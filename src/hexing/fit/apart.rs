@@ -30,34 +30,58 @@ const ON: f64 = 1e-9;
 const BATCH: usize = 1 << 12;
 
 /// All of a boundary, and how far each quad is from the solid.
-pub(super) struct Survey {
+pub(super) struct Survey<'a> {
+    pub(super) solid: &'a SolidModel,
+    /// The mean length of the edges of the mesh when it was first looked at.
+    pub(super) edge: f64,
+    /// The samples of the solid.
+    samples: Vec<Point>,
+    /// Where the corners of the quads are, and how far these and the middles of their halves are from the solid.
+    quads: Vec<[Point; 4]>,
+    of_mesh: Vec<f64>,
     /// The samples of the solid at each quad.
     of_solid: Vec<Vec<Point>>,
     /// The greatest distance at each quad, either way.
     pub(super) distances: Vec<f64>,
 }
 
-impl Survey {
-    /// Looks at all faces of the mesh and at these samples of the solid.
+impl<'a> Survey<'a> {
+    /// One that has not looked yet.
     pub(super) fn new(
         mesh: &HexMesh,
         faces: &[([NodeId; 4], SurfaceId)],
-        solid: &SolidModel,
-        points: &[Point],
+        solid: &'a SolidModel,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let quads = quads(mesh, faces);
-        let mut distances: Vec<f64> = Vec::with_capacity(quads.len());
-        for batch in quads.chunks(BATCH) {
+        let edge = mean_edge(&quads(mesh, faces));
+        let samples = samples(edge, solid, monitor)?;
+        let (quads, of_mesh, of_solid, distances) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { solid, edge, samples, quads, of_mesh, of_solid, distances })
+    }
+
+    /// Looks at all faces of the mesh, which are as many as before. What was seen of those that are where they were holds.
+    pub(super) fn renew(
+        &mut self,
+        mesh: &HexMesh,
+        faces: &[([NodeId; 4], SurfaceId)],
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
+        let (before, quads) = (std::mem::take(&mut self.quads), quads(mesh, faces));
+        let of_mesh = std::mem::take(&mut self.of_mesh);
+        for start in (0..quads.len()).step_by(BATCH) {
             monitor.proceed()?;
-            parallel::extend(&mut distances, batch.len(), |k| {
-                let apart = |p: Point| solid.nearest(p).distance;
-                batch[k].into_iter().chain(middles(&batch[k])).map(apart).fold(0.0, f64::max)
+            parallel::extend(&mut self.of_mesh, BATCH.min(quads.len() - start), |k| {
+                let quad = &quads[start + k];
+                if before.get(start + k) == Some(quad) {
+                    return of_mesh[start + k];
+                }
+                let apart = |p: Point| self.solid.nearest(p).distance;
+                quad.iter().copied().chain(middles(quad)).map(apart).fold(0.0, f64::max)
             });
         }
         let nearest = NearestTriangle::within(quads.iter().flat_map(halves), monitor)?;
         let mut of_quads = vec![Vec::new(); quads.len()];
-        for batch in points.chunks(BATCH) {
+        for batch in self.samples.chunks(BATCH) {
             monitor.proceed()?;
             let found = parallel::collect(batch.len(), |k| nearest.nearest(batch[k]));
             for (&p, found) in batch.iter().zip(found) {
@@ -70,16 +94,20 @@ impl Survey {
                 }
             }
         }
-        let mut of_solid = Vec::with_capacity(quads.len());
+        self.distances.clone_from(&self.of_mesh);
+        self.of_solid.clear();
         for (quad, mut samples) in of_quads.into_iter().enumerate() {
             if quad.is_multiple_of(BATCH) {
                 monitor.proceed()?;
             }
             keep_farthest(&mut samples);
-            distances[quad] = samples.first().map_or(distances[quad], |first| distances[quad].max(first.0));
-            of_solid.push(samples.iter().map(|(_, p)| *p).collect());
+            if let Some((distance, _)) = samples.first() {
+                self.distances[quad] = self.distances[quad].max(*distance);
+            }
+            self.of_solid.push(samples.iter().map(|(_, p)| *p).collect());
         }
-        Ok(Self { of_solid, distances })
+        self.quads = quads;
+        Ok(())
     }
 }
 
@@ -90,15 +118,9 @@ fn keep_farthest(samples: &mut Vec<(f64, Point)>) {
     samples.truncate(SAMPLES);
 }
 
-/// Samples of a solid around a mesh: its vertices, the middles of its triangles, and points of edges where it bends. Where
+/// Samples of a solid for a mesh with edges of this mean length: its vertices, the middles of its triangles, and points of edges where it bends. Where
 /// they are dense one stands for those around.
-pub(super) fn samples(
-    mesh: &HexMesh,
-    faces: &[([NodeId; 4], SurfaceId)],
-    solid: &SolidModel,
-    monitor: &dyn Monitor,
-) -> Result<Vec<Point>, Cancelled> {
-    let edge = mean_edge(&quads(mesh, faces));
+fn samples(edge: f64, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<Point>, Cancelled> {
     let mut sparse = Sparse {
         origin: solid.bounds().min,
         size: DENSE * edge,
@@ -192,19 +214,14 @@ pub(super) struct Apart<'a> {
 }
 
 impl<'a> Apart<'a> {
-    pub(super) fn new(
-        problem: &Problem,
-        faces: &[([NodeId; 4], SurfaceId)],
-        survey: Survey,
-        solid: &'a SolidModel,
-    ) -> Self {
+    pub(super) fn new(problem: &Problem, faces: &[([NodeId; 4], SurfaceId)], survey: &Survey<'a>) -> Self {
         let count = problem.nodes.iter().map(|n| n.index() + 1).max().unwrap_or(0);
         let mut local = vec![None; count];
         (0u32..).zip(&problem.nodes).for_each(|(k, n)| local[n.index()] = Some(k));
         let mut around = vec![Vec::new(); problem.movable()];
         let (mut quads, mut samples, mut distances) = (Vec::new(), Vec::new(), Vec::new());
-        for ((quad, _), (of_solid, distance)) in
-            faces.iter().zip(survey.of_solid.into_iter().zip(survey.distances))
+        for ((quad, _), (of_solid, &distance)) in
+            faces.iter().zip(survey.of_solid.iter().zip(&survey.distances))
         {
             let [Some(a), Some(b), Some(c), Some(d)] = quad.map(|n| local.get(n.index()).copied().flatten())
             else {
@@ -213,10 +230,10 @@ impl<'a> Apart<'a> {
             let movable = [a, b, c, d].into_iter().filter(|&n| (n as usize) < problem.movable());
             movable.for_each(|n| around[n as usize].push(quads.len() as u32));
             quads.push([a, b, c, d]);
-            samples.push(of_solid);
+            samples.push(of_solid.clone());
             distances.push(distance);
         }
-        Self { solid, quads, samples, distances, around }
+        Self { solid: survey.solid, quads, samples, distances, around }
     }
 
     /// The greatest distance around a node at first.
@@ -234,31 +251,53 @@ impl<'a> Apart<'a> {
         self.solid.nearest(place).distance <= reach
     }
 
-    /// The samples of the solid that are farthest from the quads around a node, at most so many.
-    pub(super) fn farthest_samples(&self, problem: &Problem, node: u32, count: usize) -> Vec<Point> {
-        let patch = self.patch(problem, node, problem.points[node as usize]);
-        let mut samples = self.samples(node).map(|(own, p)| (patch.distance_squared(own, p), p)).collect();
-        keep_farthest(&mut samples);
-        samples.into_iter().take(count).map(|(_, p)| p).collect()
+    /// What is looked at around a node, and how far that is apart with the node where it is.
+    pub(super) fn probes(&self, problem: &Problem, node: u32) -> Probes {
+        let at = problem.points[node as usize];
+        let patch = self.patch(problem, node, at);
+        let of_mesh = (0..patch.halves()).map(Probe::Middle).chain([Probe::Node]);
+        let all = self.samples(node).map(|(own, p)| Probe::Sample(own, p)).chain(of_mesh);
+        let mut probes: Vec<(f64, Probe)> =
+            all.map(|probe| (self.distance_squared(&patch, at, probe), probe)).collect();
+        // Stable: of those that are equally far the first.
+        probes.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let error = probes.iter().map(|(squared, _)| squared * squared).sum();
+        Probes { probes: probes.into_iter().map(|(_, probe)| probe).collect(), error }
     }
 
-    /// What is apart around a node that stands at `at`: the sum of the fourth powers of the distances of all samples, so
-    /// that the greatest count. Less than `limit`, or none.
-    pub(super) fn error(&self, problem: &Problem, node: u32, at: Point, limit: f64) -> Option<f64> {
+    /// What is apart with the node at `at`, if that is less than `limit`: the sum of the fourth powers of all distances, so
+    /// that the greatest count.
+    pub(super) fn error(
+        &self,
+        problem: &Problem,
+        node: u32,
+        at: Point,
+        probes: &Probes,
+        limit: f64,
+    ) -> Option<f64> {
         let patch = self.patch(problem, node, at);
-        let of_solid = self.samples(node).map(|(own, p)| patch.distance_squared(own, p));
-        let of_mesh = patch.middles().chain([at]).map(|p| {
-            let distance = self.solid.nearest(p).distance;
-            distance * distance
-        });
         let mut error = 0.0;
-        for squared in of_solid.chain(of_mesh) {
+        for &probe in &probes.probes {
+            let squared = self.distance_squared(&patch, at, probe);
             error += squared * squared;
             if error >= limit {
                 return None;
             }
         }
         Some(error)
+    }
+
+    /// How far a probe is apart, squared, with the node of the patch at `at`.
+    fn distance_squared(&self, patch: &Patch, at: Point, probe: Probe) -> f64 {
+        let from_solid = |p: Point| {
+            let distance = self.solid.nearest(p).distance;
+            distance * distance
+        };
+        match probe {
+            Probe::Sample(own, p) => patch.distance_squared(own, p),
+            Probe::Middle(half) => from_solid(patch.middle(half)),
+            Probe::Node => from_solid(at),
+        }
     }
 
     /// The samples of the solid at the quads around a node, each behind the place of its quad among these.
@@ -273,6 +312,35 @@ impl<'a> Apart<'a> {
         let halves =
             |&q: &u32| halves(&self.quads[q as usize].map(place)).map(|half| (Aabb::around(&half), half));
         Patch { quads: self.around[node as usize].iter().map(halves).collect() }
+    }
+}
+
+/// What is looked at to tell how far mesh and solid are apart around a node, what was farthest at first before all else:
+/// that tells soonest where it would be farther.
+pub(super) struct Probes {
+    probes: Vec<Probe>,
+    /// What was apart at first.
+    pub(super) error: f64,
+}
+
+/// A place of mesh or solid near a node.
+#[derive(Clone, Copy)]
+enum Probe {
+    /// A sample of the solid that was nearest to this one of the node's quads.
+    Sample(usize, Point),
+    /// The middle of this half of the quads.
+    Middle(usize),
+    /// The node.
+    Node,
+}
+
+impl Probes {
+    /// The samples of the solid that are farthest from the quads, the farthest first.
+    pub(super) fn farthest_samples(&self) -> impl Iterator<Item = Point> + '_ {
+        self.probes.iter().filter_map(|probe| match probe {
+            Probe::Sample(_, p) => Some(*p),
+            _ => None,
+        })
     }
 }
 
@@ -292,9 +360,14 @@ impl Patch {
         })
     }
 
-    /// The middles of the triangles.
-    fn middles(&self) -> impl Iterator<Item = Point> + '_ {
-        self.quads.iter().flatten().map(|(_, half)| half.iter().sum::<Point>() / 3.0)
+    /// How many triangles there are.
+    fn halves(&self) -> usize {
+        2 * self.quads.len()
+    }
+
+    /// The middle of a triangle.
+    fn middle(&self, half: usize) -> Point {
+        self.quads.as_flattened()[half].1.into_iter().sum::<Point>() / 3.0
     }
 }
 

@@ -5,21 +5,22 @@
 use super::super::correspondence::Correspondence;
 use super::holds::{Hold, Holds};
 use super::target::OnSolid;
-use crate::mesh::HexMesh;
+use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{Evening, Problem, even_out};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
-/// Smooths everything. Returns the number of sweeps.
+/// Smooths the cells around the nodes that move. Returns the number of sweeps.
 pub(super) fn even(
     mesh: &mut HexMesh,
     on: &Correspondence,
     holds: &[Hold],
     solid: &SolidModel,
     evening: Evening,
+    moves: impl Fn(NodeId) -> bool + Sync,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    let mut problem = Problem::within(&mesh.positions, &mesh.hexes, |_| true, monitor)?;
+    let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
     problem.order_by(4, |n| on.anchors[n.index()].freedom());
     let target = OnSolid::new(solid, &on.reduction);
     let guide = Holds::kept(&target, &on.anchors, holds, &mesh.positions);

@@ -30,6 +30,7 @@ mod near;
 mod progress;
 mod pull;
 mod regions;
+mod rings;
 mod snap;
 mod soften;
 mod spread;
@@ -44,6 +45,7 @@ use crate::mesh::{HexId, HexMesh, NodeId};
 use crate::optimize::{Evening, OptimizeOptions, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
+use apart::Survey;
 use even::even;
 use holds::{Hold, Holds};
 use inflate::inflate;
@@ -51,6 +53,7 @@ use loosen::loosen;
 use near::near;
 use progress::Part;
 use pull::{Course, pull};
+use rings::widen;
 use soften::soften;
 use spread::chains;
 #[cfg(test)]
@@ -77,6 +80,10 @@ const NEAR: f64 = 0.6;
 
 /// A course more of evening out counts where it leaves so much less between mesh and solid.
 const NEARER: f64 = 0.92;
+
+/// Another is made where they are apart by more than so many edges, for so many rings of cells around what is far.
+const FAR: f64 = 0.15;
+const AGAIN: usize = 8;
 
 /// How much of the work a round of these is, and unlocking alone.
 const ROUND: f64 = 0.2;
@@ -240,8 +247,8 @@ fn fitted(
     Ok((report, holds))
 }
 
-/// Smooths all for the mean and brings mesh and solid nearer to each other, with one course after the other until nothing
-/// is far; what is nearest counts, or an earlier one that is hardly farther. Returns the number of sweeps.
+/// Smooths all for the mean and brings mesh and solid nearer to each other; where they stay far from each other again, with
+/// one course after the other, each of which counts if it brings them much nearer. Returns the number of sweeps.
 fn even_and_near(
     mesh: &mut HexMesh,
     on: &Correspondence,
@@ -250,24 +257,26 @@ fn even_and_near(
     max_distance: f64,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    let before = mesh.positions.clone();
-    let (mut sweeps, mut nearest) = (0, (f64::INFINITY, Vec::new()));
+    let mut survey = Survey::new(mesh, &on.faces, solid, monitor)?;
+    let (mut sweeps, mut apart, mut moves) = (0, f64::INFINITY, vec![true; mesh.positions.len()]);
     for (k, evening) in Evening::ALL.into_iter().enumerate() {
         let range =
             |from: f64, to: f64| [from, to].map(|share| (k as f64 + share) / Evening::ALL.len() as f64);
         let part = |from, to| Part { whole: monitor, stage: FITTING, range: range(from, to) };
-        mesh.positions.clone_from(&before);
-        sweeps += even(mesh, on, holds, solid, evening, &part(0.0, NEAR))?;
-        let came = near(mesh, on, holds, solid, max_distance, evening, &part(NEAR, 1.0))?;
+        let before = mesh.positions.clone();
+        sweeps += even(mesh, on, holds, solid, evening, |n| moves[n.index()], &part(0.0, NEAR))?;
+        let came = near(mesh, on, holds, &mut survey, max_distance, evening, &part(NEAR, 1.0))?;
         sweeps += came.sweeps;
-        if k == 0 || came.apart < NEARER * nearest.0 {
-            nearest = (came.apart, mesh.positions.clone());
+        if came.apart < NEARER * apart {
+            (apart, moves) = (came.apart, came.far);
+            widen(mesh, &mut moves, AGAIN, monitor)?;
+        } else {
+            mesh.positions = before;
         }
-        if came.apart == 0.0 {
+        if !moves.contains(&true) || apart <= FAR * survey.edge {
             break;
         }
     }
-    mesh.positions = nearest.1;
     Ok(sweeps)
 }
 

@@ -7,9 +7,10 @@
 //! solid farther from each other in the end is taken back.
 
 use super::super::correspondence::{Anchor, Correspondence};
-use super::apart::{Apart, Survey, mean_edge, mean_side, quads, samples};
+use super::apart::{Apart, Probes, Survey, mean_edge, mean_side, quads};
 use super::holds::Hold;
 use super::progress::Part;
+use super::rings::widen;
 use super::target::{OnSolid, Target};
 use super::{FITTING, LEAVE, quality};
 use crate::geometry::Point;
@@ -17,7 +18,6 @@ use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{
     Constraints, Evening, Moved, Problem, Star, Weights, even_out, keep_positive, wake, worst_kept,
 };
-use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, parallel};
 
 /// What is farther apart than this share of the farthest, and than so many edges (those there, or the mean of all if that
@@ -53,54 +53,53 @@ const FARTHEST: usize = 8;
 const BATCH: usize = 16;
 
 /// What came of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Nearness {
     /// Sweeps over nodes.
     pub(super) sweeps: usize,
-    /// How far mesh and solid are apart where they are farthest, in model units; 0 if that is nowhere too far.
+    /// How far mesh and solid are apart where they are farthest, in model units.
     pub(super) apart: f64,
+    /// The nodes where they are too far.
+    pub(super) far: Vec<bool>,
 }
 
 /// Moves boundary nodes where mesh and solid are farthest from each other; nodes leave where they belong by no more than
-/// half of `max_distance`, if they are not farther already.
+/// half of `max_distance`, if they are not farther already. The `survey` may be older than the mesh, and is not afterwards.
 pub(super) fn near(
     mesh: &mut HexMesh,
     on: &Correspondence,
     holds: &[Hold],
-    solid: &SolidModel,
+    survey: &mut Survey,
     max_distance: f64,
     evening: Evening,
     monitor: &dyn Monitor,
 ) -> Result<Nearness, Cancelled> {
-    let samples = samples(mesh, &on.faces, solid, monitor)?;
+    let solid = survey.solid;
     let target = OnSolid::new(solid, &on.reduction);
-    let (mut sweeps, mut apart, mut best) = (0, f64::INFINITY, Vec::new());
+    let mut came = Nearness { sweeps: 0, apart: f64::INFINITY, far: Vec::new() };
+    let mut best = Vec::new();
     for round in 0..=ROUNDS {
         let part = |from: f64, to: f64| Part {
             whole: monitor,
             stage: FITTING,
             range: [from, to].map(|share| (round as f64 + share) / (ROUNDS + 1) as f64),
         };
-        let survey = Survey::new(mesh, &on.faces, solid, &samples, monitor)?;
+        survey.renew(mesh, &on.faces, monitor)?;
         let farthest = survey.distances.iter().copied().fold(0.0, f64::max);
-        if farthest > apart {
+        if farthest > came.apart {
             mesh.positions = best;
             break;
         }
-        let far = far(mesh, on, holds, &survey, SHARE * farthest);
-        if !far.contains(&true) {
-            apart = 0.0;
-            break;
-        }
-        let is_last = round == ROUNDS || farthest > ENOUGH * apart;
-        apart = farthest;
-        if is_last {
+        let is_last = round == ROUNDS || farthest > ENOUGH * came.apart;
+        came.far = far(mesh, on, holds, survey, SHARE * farthest);
+        came.apart = farthest;
+        if is_last || !came.far.contains(&true) {
             break;
         }
         best = mesh.positions.clone();
-        let moves = |n: NodeId| far[n.index()];
+        let moves = |n: NodeId| came.far[n.index()];
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
-        let gaps = Apart::new(&problem, &on.faces, survey, solid);
+        let gaps = Apart::new(&problem, &on.faces, survey);
         let worst = quality(mesh).0.map_or(GOOD, |worst| worst.min(GOOD));
         let places = Places { on, holds, target: &target, apart: gaps, worst, leave: 0.5 * max_distance };
         let tries = places.try_all(&mut problem, &part(0.0, 0.7))?;
@@ -108,9 +107,9 @@ pub(super) fn near(
         if tries == 0 {
             break;
         }
-        sweeps += tries + follow(mesh, on, &problem, evening, &part(0.7, 1.0))?;
+        came.sweeps += tries + follow(mesh, on, &problem, evening, &part(0.7, 1.0))?;
     }
-    Ok(Nearness { sweeps, apart })
+    Ok(came)
 }
 
 /// The nodes of the quads that are farther than `LEAST` edges and `least`, if they may move.
@@ -138,12 +137,7 @@ fn follow(
 ) -> Result<usize, Cancelled> {
     let mut is_near = vec![false; mesh.positions.len()];
     moved.nodes.iter().for_each(|n| is_near[n.index()] = true);
-    for _ in 0..RINGS {
-        let touched = parallel::try_filter(mesh.hexes.len(), monitor, |h| {
-            mesh.hexes[h].iter().any(|n| is_near[n.index()])
-        })?;
-        touched.iter().flat_map(|&h| mesh.hexes[h as usize]).for_each(|n| is_near[n.index()] = true);
-    }
+    widen(mesh, &mut is_near, RINGS, monitor)?;
     let moves = |n: NodeId| is_near[n.index()] && on.anchors[n.index()] == Anchor::Inside;
     let mut inside = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
     let sweeps = even_out(&mut inside, &Constraints::none(mesh.positions.len()), evening, monitor)?;
@@ -222,7 +216,8 @@ impl Places<'_> {
         let shape = Weights { doublings: 0, mu: 0.0 };
         let floor = floor(self.apart.farthest(node) / problem.edge(node)).max(self.worst);
         let before = star.read(from, shape, f64::INFINITY)?.worst;
-        let mut least = self.apart.error(problem, node, from, f64::INFINITY)? * (1.0 - GAIN);
+        let probes = self.apart.probes(problem, node);
+        let mut least = probes.error * (1.0 - GAIN);
         let id = problem.nodes[node as usize];
         let from_foot = |p: Point| {
             let foot = self.target.foot(self.on.anchors[id.index()], p);
@@ -237,16 +232,13 @@ impl Places<'_> {
             _ => true,
         };
         let mut best = None;
-        for to in self.places(problem, node, from) {
+        for to in self.places(problem, node, from, &probes) {
             let after = star.read(to, shape, f64::INFINITY).map(|reading| reading.worst);
-            let is_good = |after| after <= worst_kept(before, floor);
-            if !after.is_some_and(is_good) || !star.stays_positive(to) {
+            if !after.is_some_and(|after| after <= worst_kept(before, floor)) {
                 continue;
             }
-            if !stays(to) {
-                continue;
-            }
-            if let Some(error) = self.apart.error(problem, node, to, least) {
+            let error = self.apart.error(problem, node, to, &probes, least);
+            if let Some(error) = error.filter(|_| star.stays_positive(to) && stays(to)) {
                 (least, best) = (error, Some(to));
             }
         }
@@ -254,7 +246,7 @@ impl Places<'_> {
     }
 
     /// Places that a node may go to.
-    fn places(&self, problem: &Problem, node: u32, from: Point) -> Vec<Point> {
+    fn places(&self, problem: &Problem, node: u32, from: Point, probes: &Probes) -> Vec<Point> {
         let id = problem.nodes[node as usize];
         let anchor = self.on.anchors[id.index()];
         let edge = problem.edge(node);
@@ -273,7 +265,7 @@ impl Places<'_> {
         for step in STEPS {
             to.extend(directions.iter().flat_map(|&v| [from + v * (step * edge), from - v * (step * edge)]));
         }
-        let mut samples = self.apart.farthest_samples(problem, node, FARTHEST);
+        let mut samples: Vec<Point> = probes.farthest_samples().take(FARTHEST).collect();
         if !is_held {
             samples.extend(foot.map(|foot| foot.point));
         }
@@ -296,6 +288,7 @@ mod tests {
     use crate::hexing::sheets::insert_sheets;
     use crate::mesh::quality::scaled_jacobian;
     use crate::mesh::{GridOptions, PolygonMesh, hex_grid};
+    use crate::solid::SolidModel;
     use crate::{Silent, Stage};
 
     /// How much the roof of a house of 2 by 2 rises from its eaves to the ridge: less than a feature.
@@ -324,9 +317,21 @@ mod tests {
     }
 
     fn farthest(mesh: &HexMesh, on: &Correspondence, solid: &SolidModel) -> f64 {
-        let samples = samples(mesh, &on.faces, solid, &Silent).unwrap();
-        let survey = Survey::new(mesh, &on.faces, solid, &samples, &Silent).unwrap();
+        let mut survey = Survey::new(mesh, &on.faces, solid, &Silent).unwrap();
+        survey.renew(mesh, &on.faces, &Silent).unwrap();
         survey.distances.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Brings them nearer with the first course.
+    fn brought(
+        mesh: &mut HexMesh,
+        on: &Correspondence,
+        holds: &[Hold],
+        solid: &SolidModel,
+        max_distance: f64,
+    ) -> Nearness {
+        let mut survey = Survey::new(mesh, &on.faces, solid, &Silent).unwrap();
+        near(mesh, on, holds, &mut survey, max_distance, Evening::ALL[0], &Silent).unwrap()
     }
 
     fn held(on: &Correspondence) -> Vec<Hold> {
@@ -335,15 +340,29 @@ mod tests {
     }
 
     #[test]
+    fn a_survey_that_is_renewed_is_like_a_new_one() {
+        let (solid, mut mesh) = (house(), mesh_of_house());
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let mut survey = Survey::new(&mesh, &on.faces, &solid, &Silent).unwrap();
+        survey.renew(&mesh, &on.faces, &Silent).unwrap();
+        let before = survey.distances.clone();
+        let moved = (0..on.anchors.len()).find(|&n| matches!(on.anchors[n], Anchor::Surface(_))).unwrap();
+        mesh.positions[moved] += Point::splat(0.1);
+        survey.renew(&mesh, &on.faces, &Silent).unwrap();
+        let farthest_of_all = survey.distances.iter().copied().fold(0.0, f64::max);
+        assert!(survey.distances != before && farthest_of_all == farthest(&mesh, &on, &solid));
+        mesh.positions[moved] -= Point::splat(0.1);
+        survey.renew(&mesh, &on.faces, &Silent).unwrap();
+        assert_eq!(survey.distances, before);
+    }
+
+    #[test]
     fn nodes_slide_to_a_ridge_that_is_no_feature() {
         let (solid, mut mesh) = (house(), mesh_of_house());
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let before = farthest(&mesh, &on, &solid);
         assert!((0.045..0.055).contains(&before), "a fifth of an edge and more: {before}");
-        assert!(
-            near(&mut mesh, &on, &held(&on), &solid, f64::INFINITY, Evening::ALL[0], &Silent).unwrap().sweeps
-                > 0
-        );
+        assert!(brought(&mut mesh, &on, &held(&on), &solid, f64::INFINITY).sweeps > 0);
         let after = farthest(&mesh, &on, &solid);
         assert!(after < 0.4 * before, "{before} {after}");
         for (anchor, p) in on.anchors.iter().zip(&mesh.positions) {
@@ -362,7 +381,7 @@ mod tests {
             held(&on).into_iter().map(|hold| if hold == Hold::Held { Hold::Leashed } else { hold }).collect();
         let off = |max_distance: f64| {
             let mut mesh = mesh.clone();
-            near(&mut mesh, &on, &leashed, &solid, max_distance, Evening::ALL[0], &Silent).unwrap();
+            brought(&mut mesh, &on, &leashed, &solid, max_distance);
             let boundary = (0..on.anchors.len()).filter(|&n| on.anchors[n] != Anchor::Inside);
             boundary.map(|n| solid.nearest(mesh.positions[n]).distance).fold(0.0, f64::max)
         };
@@ -380,8 +399,8 @@ mod tests {
             p.x = 1.0;
         });
         let before = mesh.positions.clone();
-        let came = near(&mut mesh, &on, &held(&on), &solid, f64::INFINITY, Evening::ALL[0], &Silent);
-        assert_eq!(came, Ok(Nearness { sweeps: 0, apart: 0.0 }));
+        let came = brought(&mut mesh, &on, &held(&on), &solid, f64::INFINITY);
+        assert!(came.sweeps == 0 && !came.far.contains(&true) && came.apart < LEAST * 0.4, "{}", came.apart);
         assert_eq!(mesh.positions, before);
     }
 

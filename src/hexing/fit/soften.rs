@@ -14,6 +14,7 @@ use std::collections::BTreeSet;
 use super::super::correspondence::{Anchor, Correspondence, CurveFate, Reason};
 use super::holds::{Hold, Holds};
 use super::progress::Part;
+use super::rings::widen;
 use super::target::{OnSolid, Target};
 use super::{FITTING, LEAVE};
 use crate::geometry::Point;
@@ -82,7 +83,9 @@ pub(super) fn soften(
         for curve in curves {
             on.give_up(solid, curve, Reason::Costly);
         }
-        let near = around(mesh, &low);
+        let mut near = vec![false; mesh.positions.len()];
+        low.iter().flat_map(|&h| mesh.hexes[h as usize]).for_each(|n| near[n.index()] = true);
+        widen(mesh, &mut near, RINGS, monitor)?;
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, |n| near[n.index()], monitor)?;
         problem.order_by(4, |n| on.anchors[n.index()].freedom());
         let target = OnSolid::new(solid, &on.reduction);
@@ -160,17 +163,6 @@ fn is_smaller(solid: &SolidModel, surface: SurfaceId, side: f64) -> bool {
 fn mean_edge(corners: &[Point; 8]) -> f64 {
     let length = |&[a, b]: &[u8; 2]| corners[usize::from(a)].distance(corners[usize::from(b)]);
     EDGES.iter().map(length).sum::<f64>() / EDGES.len() as f64
-}
-
-/// The nodes of these hexes and of some rings around them.
-fn around(mesh: &HexMesh, hexes: &[u32]) -> Vec<bool> {
-    let mut near = vec![false; mesh.positions.len()];
-    hexes.iter().flat_map(|&h| mesh.hexes[h as usize]).for_each(|n| near[n.index()] = true);
-    for _ in 0..RINGS {
-        let touched = parallel::filter(mesh.hexes.len(), |h| mesh.hexes[h].iter().any(|n| near[n.index()]));
-        touched.iter().flat_map(|&h| mesh.hexes[h as usize]).for_each(|n| near[n.index()] = true);
-    }
-    near
 }
 
 /// Of the soft curves at a hex with edges of that `size` the one that is missed least, the shortest.

@@ -4,6 +4,7 @@
 //! New nodes are copies of others. Which node of the core one comes from in the end does not depend on what else was
 //! inserted: by it a collar is known again when all is inserted anew.
 
+use super::super::correspondence::Correspondence;
 use super::shrink::Layer;
 use crate::mesh::topology::Sets;
 use crate::mesh::{HexMesh, NodeId};
@@ -52,6 +53,14 @@ impl Layers {
     /// The last layer, which is none any more.
     pub(super) fn pop(&mut self) -> Option<Layer> {
         self.layers.pop().map(|(layer, _)| layer)
+    }
+
+    /// Takes all layers back at once.
+    pub(super) fn take_all_back(&mut self, mesh: &mut HexMesh, on: &mut Correspondence) {
+        if let Some((first, _)) = self.layers.first() {
+            first.take_back_to(mesh, on, |n| self.core_node(n));
+        }
+        self.layers.clear();
     }
 
     pub(super) fn count(&self, is: impl Fn(&Purpose) -> bool) -> usize {

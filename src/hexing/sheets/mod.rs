@@ -117,7 +117,7 @@ impl SheetReport {
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
         self.layers.leave_out(culprits);
-        while self.take_back(mesh, on) {}
+        self.layers.take_all_back(mesh, on);
         self.insert(mesh, on, monitor)
     }
 

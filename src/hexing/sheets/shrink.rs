@@ -334,23 +334,32 @@ impl Layer {
         if node < self.first_node { node } else { self.origins[(node.0 - self.first_node.0) as usize] }
     }
 
-    /// Takes the layer back: every new node becomes the one it is a copy of, and what falls together is gone. It has
-    /// to be the last one inserted; nodes stay where they are.
+    /// Takes the layer back. It has to be the last one inserted.
     pub(super) fn take_back(&self, mesh: &mut HexMesh, on: &mut Correspondence) {
-        let origin = |n: NodeId| self.origin(n);
+        self.take_back_to(mesh, on, |n| self.origin(n));
+    }
+
+    /// Takes the layer and all after it back: every new node becomes its `origin` before them, and what falls together is
+    /// gone. Nodes stay where they are.
+    pub(super) fn take_back_to(
+        &self,
+        mesh: &mut HexMesh,
+        on: &mut Correspondence,
+        origin: impl Fn(NodeId) -> NodeId,
+    ) {
         mesh.hexes.truncate(self.first_hex as usize);
         for hex in &mut mesh.hexes {
-            *hex = hex.map(origin);
+            *hex = hex.map(&origin);
         }
         mesh.positions.truncate(self.first_node.index());
         on.anchors.truncate(self.first_node.index());
         for (ends, _) in &mut on.edges {
-            *ends = ascending(ends.map(origin));
+            *ends = ascending(ends.map(&origin));
         }
         on.edges.retain(|([a, b], _)| a != b);
         on.edges.sort_unstable();
         let mut surfaces: Vec<([NodeId; 4], SurfaceId)> =
-            on.faces.iter().map(|&(quad, surface)| (sorted(quad.map(origin)), surface)).collect();
+            on.faces.iter().map(|&(quad, surface)| (sorted(quad.map(&origin)), surface)).collect();
         surfaces.sort_unstable();
         let surface = |quad: [NodeId; 4]| {
             let place = surfaces.partition_point(|&(key, _)| key < sorted(quad));
