@@ -13,7 +13,8 @@ use super::spread::Chain;
 use crate::optimize::Problem;
 use crate::{Cancelled, Monitor};
 
-/// Rings of cells around a stuck node where nodes are let go, in each attempt, and how many more move along.
+/// Rings of cells around a stuck node where nodes are let go, in each attempt as long as one brings something, and how many
+/// more move along.
 const RINGS: [usize; 3] = [1, 2, 4];
 const ALONG: usize = 2;
 
@@ -54,7 +55,12 @@ pub(super) fn unlock(
         let part =
             Part { whole: monitor, stage: FITTING, range: [k, k + 1].map(|k| k as f64 / RINGS.len() as f64) };
         unlocked.sweeps += pull(problem, holds, chains, &regions.moves, &mut awake, course, &part)?;
-        unlocked.gain = unlocked.gain.max(regions.keep_better(problem, holds, marks, before));
+        let gain = regions.keep_better(problem, holds, marks, before);
+        if gain == 0.0 {
+            // What brought nothing anywhere brings nothing with more room around.
+            break;
+        }
+        unlocked.gain = unlocked.gain.max(gain);
     }
     Ok(unlocked)
 }
