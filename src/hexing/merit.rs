@@ -39,7 +39,7 @@ impl Taste {
 
     /// For free forms: nobody drew their curves, and nothing tells cells where to be poor. Smaller cells take more of the mean
     /// than what they show of a scan is worth.
-    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, near: 0.45, shown: 0.0, loss: 1.0 };
+    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, near: 0.5, shown: 0.0, loss: 1.0 };
 
     /// For this solid.
     pub(super) fn of(solid: &SolidModel) -> Self {

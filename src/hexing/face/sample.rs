@@ -22,8 +22,9 @@ const LEAST_CLOSED: usize = 6;
 /// Turn that one segment of an open arc may span, in degrees, unless the arc is short.
 const MOST_TURN: f64 = 90.0;
 
-/// Times that segments are halved to tell arcs apart.
+/// Times that segments are halved to tell arcs apart, and how many times as many nodes as at first they may get by that.
 const HALVINGS: u32 = 10;
+const MOST: usize = 16;
 
 /// What is constrained: nodes on arcs.
 #[derive(Clone, Debug, Default)]
@@ -48,7 +49,11 @@ pub(super) struct SampledSegment {
 pub(super) fn sample(graph: &Graph, arcs: &[Arc], monitor: &dyn Monitor) -> Result<Samples, FaceError> {
     let courses: Vec<Course> = arcs.iter().map(|arc| Course::new(graph, arc)).collect();
     let mut counts: Vec<usize> = courses.iter().map(Course::count).collect();
+    let most = MOST * counts.iter().sum::<usize>();
     for _ in 0..HALVINGS {
+        if counts.iter().sum::<usize>() > most {
+            break;
+        }
         let samples = place(graph, arcs, &courses, &counts);
         let crowded = crowded(&samples, arcs.len(), monitor)?;
         if !crowded.contains(&true) {

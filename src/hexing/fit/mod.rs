@@ -37,7 +37,7 @@ mod spread;
 mod target;
 mod unlock;
 
-use super::correspondence::Correspondence;
+use super::correspondence::{Anchor, Correspondence};
 use super::sheets::SheetReport;
 use crate::geometry::Point;
 use crate::mesh::quality::scaled_jacobian;
@@ -77,6 +77,9 @@ const LOOSEN: f64 = 0.9;
 const SOFTEN: f64 = 0.9;
 const EVEN: f64 = 0.94;
 const NEAR: f64 = 0.6;
+
+/// The share of the evening out that is done where the inside alone is left.
+const INSIDE: f64 = 0.9;
 
 /// A course more of evening out counts where it leaves so much less between mesh and solid.
 const NEARER: f64 = 0.92;
@@ -260,8 +263,9 @@ fn even_and_near(
     let mut survey = Survey::new(mesh, &on.faces, solid, monitor)?;
     let (mut sweeps, mut apart, mut moves) = (0, f64::INFINITY, vec![true; mesh.positions.len()]);
     for (k, evening) in Evening::ALL.into_iter().enumerate() {
-        let range =
-            |from: f64, to: f64| [from, to].map(|share| (k as f64 + share) / Evening::ALL.len() as f64);
+        let range = |from: f64, to: f64| {
+            [from, to].map(|share| INSIDE * (k as f64 + share) / Evening::ALL.len() as f64)
+        };
         let part = |from, to| Part { whole: monitor, stage: FITTING, range: range(from, to) };
         let before = mesh.positions.clone();
         sweeps += even(mesh, on, holds, solid, evening, |n| moves[n.index()], &part(0.0, NEAR))?;
@@ -277,6 +281,9 @@ fn even_and_near(
             break;
         }
     }
+    let inside = |n: NodeId| on.anchors[n.index()] == Anchor::Inside;
+    let part = Part { whole: monitor, stage: FITTING, range: [INSIDE, 1.0] };
+    sweeps += even(mesh, on, holds, solid, Evening::INSIDE, inside, &part)?;
     Ok(sweeps)
 }
 
