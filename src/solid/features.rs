@@ -1,5 +1,7 @@
 //! Which edges are feature edges: where the surface is sharp, and where the file says so; without noise.
 //!
+//! A crease may fade for a short way, such as where a fillet's triangles are smaller: it is taken to go on there.
+//!
 //! Noise is what a mesh of a given edge length could not follow: chains of feature edges that end within a surface and
 //! are shorter than an edge, and connected sets of feature edges that are shorter than two.
 
@@ -7,6 +9,15 @@ use super::shell::{Shell, triangle_of};
 use crate::geometry::Point;
 use crate::mesh::topology::Sets;
 use crate::parallel;
+
+/// A crease goes on where the normals differ by more than this share of the feature angle.
+const FADED: f64 = 0.4;
+
+/// For so far at most, as a share of what there is of it on one side.
+const GAP: f64 = 0.05;
+
+/// The cosine of 45 degrees: it turns by less from edge to edge there.
+const AHEAD: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// For each half-edge whether the normals of its two triangles differ by more than `feature_angle` degrees.
 pub(super) fn sharp_edges(shell: &Shell, normals: &[Point], feature_angle: f64) -> Vec<bool> {
@@ -31,6 +42,24 @@ pub(super) fn drop_noise(shell: &Shell, is_feature: &mut [bool], tagged: &[bool]
     let mut graph = FeatureGraph::new(shell, is_feature, tagged);
     let loose = graph.drop_loose_ends(edge_length);
     loose + graph.drop_small_sets(2.0 * edge_length)
+}
+
+/// Closes gaps in creases: where a chain of feature edges ends within a surface, and ahead along edges that are nearly as
+/// sharp another one does, or the same. What the file marks ends where it ends.
+pub(super) fn close_gaps(
+    shell: &Shell,
+    normals: &[Point],
+    is_feature: &mut [bool],
+    tagged: &[bool],
+    feature_angle: f64,
+) {
+    let is_faded = sharp_edges(shell, normals, FADED * feature_angle);
+    let mut graph = FeatureGraph::new(shell, is_feature, tagged);
+    for v in 0..graph.valence.len() as u32 {
+        if graph.valence[v as usize] == 1 {
+            graph.gap(v, &is_faded).into_iter().for_each(|k| graph.set_edge(k, true));
+        }
+    }
 }
 
 struct FeatureGraph<'a> {
@@ -61,11 +90,36 @@ impl<'a> FeatureGraph<'a> {
                 if self.valence[v as usize] == 1 {
                     let chain = self.loose_chain(v, length);
                     dropped += chain.len();
-                    chain.into_iter().for_each(|k| self.drop_edge(k));
+                    chain.into_iter().for_each(|k| self.set_edge(k, false));
                 }
             }
             if dropped == before {
                 return dropped;
+            }
+        }
+    }
+
+    /// The way from the end of a chain to another end; empty if there is none.
+    fn gap(&self, end: u32, is_faded: &[bool]) -> Vec<u32> {
+        let chain = self.loose_chain(end, f64::INFINITY);
+        let length: f64 = chain.iter().map(|&k| self.shell.along(k).length()).sum();
+        let mut way = chain.first().map_or(Point::ZERO, |&k| -self.shell.along(k).normalize_or_zero());
+        let (mut gap, mut so_far, mut vertex) = (Vec::new(), 0.0, end);
+        loop {
+            let arms = self.shell.fan(self.out[vertex as usize]);
+            let faded = arms.filter(|&k| is_faded[k as usize] && !self.is_feature[k as usize]);
+            let ahead = |k: u32| self.shell.along(k).normalize_or_zero().dot(way);
+            let Some(k) = faded.filter(|&k| ahead(k) > AHEAD).max_by(|&k, &l| ahead(k).total_cmp(&ahead(l)))
+            else {
+                return Vec::new();
+            };
+            so_far += self.shell.along(k).length();
+            gap.push(k);
+            (vertex, way) = (self.shell.to(k), self.shell.along(k).normalize_or_zero());
+            match self.valence[vertex as usize] {
+                0 if so_far < GAP * length => {}
+                1 if so_far < GAP * length => return gap,
+                _ => return Vec::new(),
             }
         }
     }
@@ -91,10 +145,11 @@ impl<'a> FeatureGraph<'a> {
         }
     }
 
-    fn drop_edge(&mut self, k: u32) {
+    fn set_edge(&mut self, k: u32, is_feature: bool) {
         for k in [k, self.shell.twin(k)] {
-            self.is_feature[k as usize] = false;
-            self.valence[self.shell.from(k) as usize] -= 1;
+            self.is_feature[k as usize] = is_feature;
+            let valence = &mut self.valence[self.shell.from(k) as usize];
+            *valence = if is_feature { *valence + 1 } else { *valence - 1 };
         }
     }
 
@@ -114,7 +169,7 @@ impl<'a> FeatureGraph<'a> {
         }
         let is_small = |k: &u32| lengths[sets.root(shell.from(*k)).0 as usize] < length;
         let small: Vec<u32> = features.into_iter().filter(is_small).collect();
-        small.iter().for_each(|&k| self.drop_edge(k));
+        small.iter().for_each(|&k| self.set_edge(k, false));
         small.len()
     }
 }

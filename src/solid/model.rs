@@ -4,7 +4,7 @@ use super::crossing::{Crossing, crossings};
 use super::curves::{CurveGraph, curve_graph};
 use super::entities::{Corner, Curve, CurveId, Surface, SurfaceClass, SurfaceId};
 use super::error::SolidError;
-use super::features::{drop_noise, sharp_edges};
+use super::features::{close_gaps, drop_noise, sharp_edges};
 use super::import::{Imported, import};
 use super::options::{SolidOptions, SolidReport};
 use super::search::{CurveFoot, CurveSearch, Foot, Sides, TriangleSearch};
@@ -73,11 +73,13 @@ impl SolidModel {
         monitor.checkpoint(Self::STAGE, 0.3)?;
         refuse_crossings(&shell, &face_of, tolerance, monitor)?;
         monitor.checkpoint(Self::STAGE, 0.6)?;
-        let mut is_feature = sharp_edges(&shell, &normals(&shell), options.feature_angle);
+        let normals = normals(&shell);
+        let mut is_feature = sharp_edges(&shell, &normals, options.feature_angle);
         is_feature.iter_mut().zip(&tagged).for_each(|(is_feature, tagged)| *is_feature |= tagged);
         if let Some(length) = options.edge_length {
             report.noise_edges = drop_noise(&shell, &mut is_feature, &tagged, length);
         }
+        close_gaps(&shell, &normals, &mut is_feature, &tagged, options.feature_angle);
         monitor.checkpoint(Self::STAGE, 0.7)?;
         let parts = Parts { shell, is_feature, tagged, body_of, corner_angle: options.corner_angle };
         let solid = Self::of_parts(parts, monitor)?;

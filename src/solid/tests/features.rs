@@ -118,3 +118,19 @@ fn of_a_free_form_sharp_curves_are_drawn() {
     let cube = solid(&cuboid([2, 2, 2]));
     assert!((0..12).all(|curve| cube.is_drawn(CurveId::new(curve))));
 }
+
+#[test]
+fn creases_go_on_where_they_fade_for_a_short_way() {
+    // The top of a plate bends by 39 degrees at y = 8, but for some of its length, where it begins to a little before.
+    let bent = |faded: f64| {
+        moved(cuboid([90, 16, 1]), |p| {
+            let early = if p.y == 8.0 && (p.x - 45.0).abs() < faded { 0.15 } else { 0.0 };
+            p.with_z(p.z * (20.0 + early + 0.8 * (p.y - 8.0).max(0.0)))
+        })
+    };
+    let ends = |faded: f64| {
+        let (solid, _) = made(&bent(faded), &SolidOptions::default());
+        solid.corners().iter().filter(|corner| corner.arms.len() == 1).count()
+    };
+    assert_eq!([ends(0.5), ends(3.5)], [0, 2]);
+}
