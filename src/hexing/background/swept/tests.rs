@@ -114,3 +114,9 @@ fn what_cannot_be_swept_is_refused() {
         assert_eq!(code(Point::Z, edge_length), "too-many-hexes");
     }
 }
+
+#[test]
+fn steps_are_off_the_edge_length_by_the_least_factor() {
+    let steps = |gap: f64| heights(&[0.0, gap], 1.0).len() - 1;
+    assert_eq!([0.3, 1.4, 1.45, 2.4, 2.5 - 1e-12, 3.48].map(steps), [1, 1, 2, 2, 3, 3]);
+}
