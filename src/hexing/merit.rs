@@ -82,21 +82,21 @@ impl Bar {
     }
 }
 
-/// The share of the curves and surfaces that are lost; all of them where nobody looked. Curves that are contracted, and
-/// surfaces for which others stand, are not: they are as small as a cell.
+/// The share of the curves and surfaces that are lost; all of them where nobody looked. Curves that are contracted or of
+/// low steps, and surfaces for which others stand, are not: they are as small as a cell.
 fn lost(features: Option<&FeatureReport>) -> f64 {
     features.map_or(1.0, |features| {
         let found = features.curves.found + features.surfaces.found;
-        features.lost() as f64 / found.max(1) as f64
+        (features.lost() - features.low.suppressed) as f64 / found.max(1) as f64
     })
 }
 
-/// The share of the curves and surfaces that have edges and faces of their own, be they small or not; none where nobody
-/// looked.
+/// The share of the curves and surfaces that have edges and faces of their own, be they small or not, but for those of low
+/// steps; none where nobody looked.
 pub(super) fn captured(features: Option<&FeatureReport>) -> f64 {
     features.map_or(0.0, |features| {
         let [curves, surfaces] = [features.curves, features.surfaces];
-        let found = curves.found + surfaces.found;
+        let found = curves.found + surfaces.found - features.low.curves - features.low.surfaces;
         (curves.captured + surfaces.captured) as f64 / found.max(1) as f64
     })
 }

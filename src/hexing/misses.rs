@@ -62,7 +62,7 @@ pub(super) fn misses(
     let finest = site.edge_length(kind) / f64::from(1u32 << site.finest(kind));
     let mut failures = Vec::new();
     let is_missed = |lost: &&LostCurve| {
-        let is_wanted = lost.reason != Reason::Costly && solid.is_drawn(lost.curve);
+        let is_wanted = !matches!(lost.reason, Reason::Costly | Reason::Low) && solid.is_drawn(lost.curve);
         lost.fate == CurveFate::Suppressed && is_wanted
     };
     for lost in reduction.lost_curves.iter().filter(is_missed) {

@@ -25,6 +25,7 @@ mod pipeline;
 mod report;
 mod second_order;
 mod separate;
+mod steps;
 
 pub use background::Background;
 pub use forecast::forecast_hexes;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::background::{Background, Choice};
 use super::core::CoreReport;
-use super::correspondence::{CurveFate, LostCurve, LostSurface, Reduction};
+use super::correspondence::{CurveFate, LostCurve, LostSurface, Reason, Reduction};
 use super::direction::DirectionScore;
 use super::fit::FitReport;
 use super::second_order::SecondOrderReport;
@@ -147,6 +147,20 @@ pub struct FeatureReport {
     pub suppressed: Vec<LostFeature>,
     /// Surfaces that no face stands for.
     pub lost_surfaces: Vec<LostFeature>,
+    /// What there is of steps far lower than edges.
+    #[serde(skip)]
+    pub(super) low: LowSteps,
+}
+
+/// What a solid has of steps that are far lower than edges.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LowSteps {
+    /// Curves that were suppressed.
+    pub(super) suppressed: usize,
+    /// Curves in all.
+    pub(super) curves: usize,
+    /// Surfaces for which others stand.
+    pub(super) surfaces: usize,
 }
 
 /// A feature, or a body, that the mesh does not show.
@@ -252,6 +266,11 @@ impl FeatureReport {
         let corners = ids(solid.corners().len()).map(CornerId);
         let own_corner = |c: &CornerId| reduction.corner(*c) == *c && !reduction.lost_corners.contains(c);
         let own_surface = |s: &SurfaceId| reduction.members(*s).first() == Some(s);
+        let low_curves: Vec<&LostCurve> =
+            reduction.lost_curves.iter().filter(|lost| lost.reason == Reason::Low).collect();
+        let is_low = |c: &CurveId| low_curves.binary_search_by_key(c, |lost| lost.curve).is_ok();
+        let is_at_step =
+            |s: &SurfaceId| !own_surface(s) && solid.surfaces()[s.index()].curves.iter().any(is_low);
         Self {
             corners: Captured { found: solid.corners().len(), captured: corners.filter(own_corner).count() },
             curves: Captured { found: solid.curves().len(), captured: reduction.count(CurveFate::Captured) },
@@ -262,6 +281,11 @@ impl FeatureReport {
             contracted: with(CurveFate::Contracted),
             suppressed: with(CurveFate::Suppressed),
             lost_surfaces: reduction.lost_surfaces.iter().map(surface).collect(),
+            low: LowSteps {
+                suppressed: low_curves.iter().filter(|lost| lost.fate == CurveFate::Suppressed).count(),
+                curves: low_curves.len(),
+                surfaces: ids(solid.surfaces().len()).map(SurfaceId).filter(is_at_step).count(),
+            },
         }
     }
 
@@ -283,6 +307,9 @@ impl FeatureReport {
             all.found += more.found;
             all.captured += more.captured;
         }
+        self.low.suppressed += other.low.suppressed;
+        self.low.curves += other.low.curves;
+        self.low.surfaces += other.low.surfaces;
         self.contracted.extend(&other.contracted);
         self.suppressed.extend(&other.suppressed);
         self.lost_surfaces.extend(&other.lost_surfaces);

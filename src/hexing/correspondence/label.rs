@@ -5,7 +5,8 @@
 //!    region gets become one.
 //! 3. A region that gets none, because no path bounds it, takes the surface that most of it is nearest to.
 //! 4. A surface that no region got, because all its curves were given up, becomes one with the surface of the quads that
-//!    are nearest to it; it is lost if they are too few for its area.
+//!    are nearest to it; it is lost if they are too few for its area, and no surface that it is
+//!    one with anyhow is found.
 
 use std::collections::BTreeMap;
 
@@ -27,11 +28,12 @@ pub(super) struct Labels {
     pub is_lost: Vec<bool>,
 }
 
-/// Labels all quads. `sides` names, for each spoke on a path, the surface at its left.
+/// Labels all quads. `sides` names, for each spoke on a path, the surface at its left; `one` pairs of surfaces that are one.
 pub(super) fn label_quads(
     boundary: &Boundary,
     solid: &SolidModel,
     sides: &[Option<SurfaceId>],
+    one: &[[SurfaceId; 2]],
     monitor: &dyn Monitor,
 ) -> Result<Labels, Cancelled> {
     let (regions, count) = regions(boundary, sides);
@@ -60,6 +62,10 @@ pub(super) fn label_quads(
                 None => is_lost[surface] = true,
             }
         }
+    }
+    while let Some(&[a, b]) = one.iter().find(|pair| is_lost[pair[0].index()] != is_lost[pair[1].index()]) {
+        united.join(a.0, b.0, false);
+        [a, b].iter().for_each(|side| is_lost[side.index()] = false);
     }
     let surfaces: Vec<SurfaceId> = (0..is_lost.len()).map(|s| SurfaceId(united.root(s as u32).0)).collect();
     let of_region = |region: u32| surface_of[region as usize].map_or(SurfaceId(0), |s| surfaces[s.index()]);

@@ -4,7 +4,8 @@
 //! [`correspond`] promises what [`Correspondence`] lists, whatever the mesh and the solid. It needs a mesh whose boundary
 //! is a manifold. What the mesh cannot show is given up and said, in [`Reduction`]. The steps:
 //!
-//! 1. Curves too short for the edges are given up, and so contracted to corners where they have two (`network`).
+//! 1. Curves of steps far lower than edges are given up (`low`), and those too short for the edges: these are contracted to
+//!    corners where they have two (`network`).
 //! 2. Corners, and some places on closed curves, get nodes; the curves at a corner get edges there, in the cyclic order
 //!    that the solid has them in (`stops`, `place`, `arms`).
 //! 3. All curves are routed, by negotiation: paths share no nodes (`corridor`, `route`).
@@ -22,6 +23,7 @@ mod capture;
 mod check;
 mod corridor;
 mod label;
+mod low;
 mod network;
 mod place;
 mod reduction;
@@ -56,12 +58,13 @@ pub fn correspond(
     monitor.checkpoint(CORRESPONDENCE, 0.0)?;
     let boundary = Boundary::of(mesh, monitor)?;
     let mut network = Network::of(solid);
+    low::give_up_low(&mut network, &boundary);
     network::give_up_short(&mut network, &boundary);
     monitor.checkpoint(CORRESPONDENCE, 0.1)?;
     let capture = capture::capture(&boundary, &mut network, monitor)?;
     monitor.checkpoint(CORRESPONDENCE, 0.9)?;
     let sides = sides_of_spokes(&boundary, solid, &capture);
-    let labels = label::label_quads(&boundary, solid, &sides, monitor)?;
+    let labels = label::label_quads(&boundary, solid, &sides, &low::united(&network), monitor)?;
     monitor.checkpoint(CORRESPONDENCE, 1.0)?;
     Ok(correspondence(mesh, &boundary, network, &capture, labels))
 }

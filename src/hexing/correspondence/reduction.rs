@@ -17,6 +17,8 @@ pub enum CurveFate {
 /// Why something of the solid was given up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
+    /// A surface beside it is a step far lower than the edges of the mesh there.
+    Low,
     /// It is too short for the edges of the mesh there.
     Short,
     /// No boundary node near a corner at its end is left that as many edges leave as curves.

@@ -181,3 +181,25 @@ fn captured_curves_can_be_given_up() {
         assert!(on.anchors.iter().all(|anchor| matches!(anchor, Anchor::Inside | Anchor::Surface(_))));
     }
 }
+
+/// A plate of 12 x 12 x 3 with unit quads, and its top lower by `depth` where that `is_low`.
+fn stepped(depth: f64, is_low: impl Fn(i32, i32) -> bool) -> PolygonMesh {
+    moved(voxels([12, 12, 3], |[x, y, z]| z < 2 || !is_low(x, y)), |p| {
+        p.with_z([0.0, 1.5, 3.0 - depth, 3.0][p.z as usize])
+    })
+}
+
+#[test]
+fn steps_far_lower_than_edges_are_given_up() {
+    let pocket = |x: i32, y: i32| (4..8).contains(&x) && (3..9).contains(&y);
+    // Of the pocket top, foot and what joins them; of the ledge top and foot, and two ends that join the plate's rim.
+    for (is_low, counts) in [(&pocket as &dyn Fn(i32, i32) -> bool, [12, 4, 8]), (&|x, _| x < 4, [14, 2, 2])]
+    {
+        let low = solid(&stepped(0.1, is_low));
+        let on = check(&core(&low, 1.0), &low, counts);
+        assert!(on.reduction.lost_curves.iter().all(|lost| lost.reason == Reason::Low));
+        assert_eq!(on.reduction.lost_surfaces, []);
+        let high = solid(&stepped(1.0, is_low));
+        check(&core(&high, 1.0), &high, [high.curves().len(), 0, 0]);
+    }
+}

@@ -3,8 +3,9 @@
 //! A curve along the direction becomes a point. Edges where the surface turns from facing the direction to facing
 //! against it, or to lying along it, bound what is covered; many of them are of feature curves.
 //!
-//! Top and foot of a wall along the direction that is lower than a quarter of an edge stand in one layer of a sweep: of
-//! engravings and the like only what bounds the covered region is seen, or cells would be small and poor for nothing.
+//! Top and foot of a wall along the direction, or nearly, that is lower than a quarter of an edge stand in one layer of a
+//! sweep: of engravings and the like only what bounds the covered region is seen, or cells would be small and poor for
+//! nothing.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -16,10 +17,14 @@ use super::shadow::Shadow;
 use crate::geometry::Point;
 use crate::hexing::direction::PERPENDICULAR;
 use crate::hexing::extent::{Extent, ONE_LEVEL};
+use crate::hexing::steps::step_height;
 use crate::solid::{Curve, SolidModel, Surface};
 
 /// A curve that is shorter than this seen along the direction is a point: 0.15 h.
 const POINT: f64 = 0.075;
+
+/// The sine of 45 degrees: steps between parallel surfaces that lean more are no walls.
+const LEANING: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// How far beside a curve it is looked whether something is covered there: 0.02 h.
 const ASIDE: f64 = 0.01;
@@ -39,8 +44,8 @@ pub(super) struct Projected {
 
 /// Projects all feature curves and rims.
 pub(super) fn project(solid: &SolidModel, projection: &Projection, shadow: &Shadow) -> Projected {
-    let mut rim = rim_edges(solid, projection);
     let low = low_walls(solid, projection);
+    let mut rim = rim_edges(solid, projection, &low);
     let mut projected = Projected::default();
     for curve in solid.curves() {
         let mut flat: Vec<DVec2> =
@@ -81,13 +86,17 @@ fn without_doubles(curve: &mut Vec<DVec2>) {
     curve.dedup_by(|a, b| a.distance(*b) < 1e-9);
 }
 
-/// Of each surface: is it a wall along the direction so low that its top and foot are one level?
+/// Of each surface: is it a wall so low that its top and foot are one level?
 fn low_walls(solid: &SolidModel, projection: &Projection) -> Vec<bool> {
     let along = projection.direction();
     let low = ONE_LEVEL * projection.scale.edge_length();
-    let is_wall = |s: &Surface| s.triangles.iter().all(|&t| facing(solid, t as usize, along) == 0);
     let is_low = |s: &Surface| Extent::of_surface(solid, s, along).thickness() < low;
-    solid.surfaces().iter().map(|s| is_wall(s) && is_low(s)).collect()
+    let is_wall = |s: &Surface| {
+        let leans =
+            |most: f64| s.triangles.iter().any(|&t| solid.normals()[t as usize].dot(along).abs() > most);
+        !leans(PERPENDICULAR) || !leans(LEANING) && step_height(solid, s).is_some()
+    };
+    solid.surfaces().iter().map(|s| is_low(s) && is_wall(s)).collect()
 }
 
 /// Is most of the curve's length between what is covered and what is not?
@@ -119,14 +128,18 @@ fn facing(solid: &SolidModel, triangle: usize, direction: Point) -> i8 {
     i8::from(along > PERPENDICULAR) - i8::from(along < -PERPENDICULAR)
 }
 
-/// The edges of triangles where the surface turns from facing the direction to lying along it or facing against it.
-fn rim_edges(solid: &SolidModel, projection: &Projection) -> BTreeSet<[u32; 2]> {
+/// The edges of triangles where the surface turns from facing the direction to lying along it or facing against it, but for
+/// those within low walls.
+fn rim_edges(solid: &SolidModel, projection: &Projection, low: &[bool]) -> BTreeSet<[u32; 2]> {
+    let surface = |t: usize| solid.surface_of(t);
+    let is_within = |t: usize, other: usize| low[surface(t).index()] && surface(t) == surface(other);
     let facing = |t: usize| facing(solid, t, projection.direction());
     let mut rim = BTreeSet::new();
     for (t, triangle) in solid.triangles().iter().enumerate() {
         for side in 0..3 {
             let (a, b) = (triangle[side], triangle[(side + 1) % 3]);
-            if a < b && facing(t) != facing(solid.across(t, side) as usize) {
+            let other = solid.across(t, side) as usize;
+            if a < b && facing(t) != facing(other) && !is_within(t, other) {
                 rim.insert([a, b]);
             }
         }
