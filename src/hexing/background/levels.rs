@@ -4,7 +4,9 @@
 //! 2. in planar surfaces across the direction, the largest first;
 //! 3. in planar curves across it, the longest first;
 //! 4. at both ends and in the middle of holes and pins across it that are about as thick as an edge is long, the largest
-//!    first: with four cells around its middle a circle becomes eight edges, else as few as four.
+//!    first: with four cells around its middle a circle becomes eight edges, else as few as four;
+//! 5. halfway between a round end of the solid and the nearest planar surface or curve across, where these are about an
+//!    edge apart: the solid turns by a right angle between them.
 //!
 //! What is too close to a level before has none.
 
@@ -14,6 +16,10 @@ use crate::solid::{Curve, SolidModel, Surface, SurfaceClass};
 
 /// Levels of holes and pins closer than this to others, in edge lengths, are left out; all others closer than [`ONE_LEVEL`].
 const MERGED_AROUND: f64 = 0.4;
+
+/// Levels so many edges apart, and farther, have more than one step between them: the edges of two are off by a smaller
+/// factor.
+pub(super) const ONE_STEP: f64 = std::f64::consts::SQRT_2;
 
 /// A curve whose points are no farther apart along the direction than this, in edge lengths, is across it.
 const FLAT: f64 = 0.01;
@@ -56,6 +62,14 @@ pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> 
     planes.iter().chain(&curves).for_each(|(_, extent)| levels.add(extent.middle(), ONE_LEVEL));
     for (_, extent) in round {
         [extent.low, extent.middle(), extent.high].into_iter().for_each(|at| levels.add(at, MERGED_AROUND));
+    }
+    for end in [low, high] {
+        let away = |at: &f64| (at - end).abs();
+        let flat = planes.iter().chain(&curves).map(|(_, extent)| extent.middle());
+        let next = flat.min_by(|a, b| away(a).total_cmp(&away(b)));
+        if let Some(next) = next.filter(|next| away(next) < ONE_STEP * edge_length) {
+            levels.add(0.5 * (end + next), ONE_LEVEL);
+        }
     }
     levels.at.sort_unstable_by(f64::total_cmp);
     levels.at
@@ -108,6 +122,17 @@ mod tests {
         let found = levels(&pin(0.6), Point::Z, 1.0);
         assert_eq!(found.len(), 3, "{found:?}");
         assert!(found.iter().zip([-0.6, 0.0, 0.6]).all(|(a, b)| (a - b).abs() < 1e-3), "{found:?}");
+    }
+
+    #[test]
+    fn round_ends_have_a_level_between_them_and_what_is_flat() {
+        // Half a pin, on a foot of a height of 1.
+        let half = |radius: f64| {
+            let ridge =
+                |p: Point| Point::new(2.0 * p.z, radius * p.x, radius * p.y.max(0.0) - f64::from(p.y < -0.5));
+            levels(&solid(&moved(cylinder(96), ridge)), Point::Z, 1.0)
+        };
+        assert_eq!([half(1.0).len(), half(0.3).len()], [4, 3]);
     }
 
     #[test]

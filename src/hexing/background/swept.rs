@@ -1,7 +1,7 @@
 //! The swept background (the paper's §4.2): the quads of the principal face, layer by layer along the direction.
 
 use super::columns::{Columns, share_an_edge};
-use super::levels::levels;
+use super::levels::{ONE_STEP, levels};
 use crate::geometry::Point;
 use crate::hexing::face::{FaceError, PrincipalFace, RegionMesh, RegionOptions, principal_face};
 use crate::mesh::topology::{Bins, Sets};
@@ -11,10 +11,6 @@ use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// Hexes whose centre is farther outside than this, in edge lengths, are dropped.
 const FAR: f64 = 2.0;
-
-/// Levels so many edges apart, and farther, have more than one step between them: the edges of two are off by a smaller
-/// factor.
-const LONGEST: f64 = std::f64::consts::SQRT_2;
 
 /// By so little half an edge is missed where it is only by rounding.
 const ROUNDED: f64 = 1e-6;
@@ -191,7 +187,7 @@ fn heights(levels: &[f64], edge_length: f64) -> Vec<f64> {
     let mut heights = vec![levels[0]];
     for pair in levels.windows(2) {
         let edges = (pair[1] - pair[0]) / edge_length;
-        let steps = if edges < LONGEST { 1.0 } else { (edges + ROUNDED).round().max(2.0) } as usize;
+        let steps = if edges < ONE_STEP { 1.0 } else { (edges + ROUNDED).round().max(2.0) } as usize;
         let step = (pair[1] - pair[0]) / steps as f64;
         heights.extend((1..steps).map(|k| pair[0] + step * k as f64));
         heights.push(pair[1]);
