@@ -124,7 +124,7 @@ pub fn optimize(
 ) -> Result<OptimizeReport, Cancelled> {
     monitor.checkpoint(UNTANGLING, 0.0)?;
     let moves = |n: NodeId| movable[n.index()] && !constraints.is_fixed(n);
-    let mut problem = Problem::within(positions, hexes, moves, monitor)?;
+    let mut problem = Problem::within(positions, hexes, &moves, monitor)?;
     let before = problem.state(monitor)?;
     let mut sweeps = untangle(&mut problem, constraints, options, monitor)?;
     sweeps += smooth(&mut problem, constraints, options, monitor)?;

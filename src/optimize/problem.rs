@@ -41,7 +41,7 @@ impl Problem {
     pub(crate) fn new(
         positions: &[Point],
         hexes: &[[NodeId; 8]],
-        moves: impl Fn(NodeId) -> bool + Sync,
+        moves: &(dyn Fn(NodeId) -> bool + Sync),
     ) -> Self {
         Self::within(positions, hexes, moves, &Silent).expect("nobody stops it")
     }
@@ -50,7 +50,7 @@ impl Problem {
     pub(crate) fn within(
         positions: &[Point],
         hexes: &[[NodeId; 8]],
-        moves: impl Fn(NodeId) -> bool + Sync,
+        moves: &(dyn Fn(NodeId) -> bool + Sync),
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let touched = parallel::try_filter(hexes.len(), monitor, |h| hexes[h].iter().any(|&n| moves(n)))?;

@@ -17,7 +17,7 @@ pub(super) fn even(
     holds: &[Hold],
     solid: &SolidModel,
     evening: Evening,
-    moves: impl Fn(NodeId) -> bool + Sync,
+    moves: &(dyn Fn(NodeId) -> bool + Sync),
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;

@@ -42,7 +42,7 @@ pub(super) fn inflate(
     let (mut sweeps, mut taken_back) = (0, 0);
     let mut range = [0.0, 0.5];
     loop {
-        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, |_| true);
+        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|_| true);
         let holds = Holds::free(target, &on.anchors);
         let part = Part { whole: monitor, stage: FITTING, range };
         sweeps += untangle(&mut problem, &holds, &OptimizeOptions::default(), &part)?;
@@ -114,7 +114,7 @@ mod tests {
         }
         let inside: Vec<bool> =
             mesh.positions.iter().map(|p| (*p - middle).abs().max_element() < 2.0).collect();
-        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, |n| inside[n.index()]);
+        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|n| inside[n.index()]);
         let folded = tangled(&problem);
         assert!(folded.len() > 1);
         even_out(&mut problem, &folded, 0);

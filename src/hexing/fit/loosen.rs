@@ -119,7 +119,7 @@ mod tests {
         assert!(matches!(on.anchors[node], Anchor::Curve(_)));
         mesh.positions[node] = Point::new(0.3, 0.1, 2.0);
         let target = OnSolid::new(&solid, &on.reduction);
-        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, |_| true);
+        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|_| true);
         let held = |anchor: &Anchor| if *anchor == Anchor::Inside { Hold::Free } else { Hold::Held };
         let mut holds = Holds::of(&target, &on.anchors, on.anchors.iter().map(held).collect());
         holds.holds[node] = Hold::Drawn;

@@ -43,7 +43,7 @@ use crate::geometry::Point;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexId, HexMesh, NodeId};
 use crate::optimize::{Evening, OptimizeOptions, smooth};
-use crate::solid::SolidModel;
+use crate::solid::{SolidModel, SurfaceClass};
 use crate::{Cancelled, Monitor, Stage, parallel};
 use apart::Survey;
 use even::even;
@@ -78,8 +78,8 @@ const SOFTEN: f64 = 0.9;
 const EVEN: f64 = 0.94;
 const NEAR: f64 = 0.6;
 
-/// The share of the evening out that is done where the inside alone is left.
-const INSIDE: f64 = 0.9;
+/// The share of the evening out that is done where only what keeps mesh and solid as near is left.
+const LAST: f64 = 0.9;
 
 /// A course more of evening out counts where it leaves so much less between mesh and solid.
 const NEARER: f64 = 0.92;
@@ -264,11 +264,11 @@ fn even_and_near(
     let (mut sweeps, mut apart, mut moves) = (0, f64::INFINITY, vec![true; mesh.positions.len()]);
     for (k, evening) in Evening::ALL.into_iter().enumerate() {
         let range = |from: f64, to: f64| {
-            [from, to].map(|share| INSIDE * (k as f64 + share) / Evening::ALL.len() as f64)
+            [from, to].map(|share| LAST * (k as f64 + share) / Evening::ALL.len() as f64)
         };
         let part = |from, to| Part { whole: monitor, stage: FITTING, range: range(from, to) };
         let before = mesh.positions.clone();
-        sweeps += even(mesh, on, holds, solid, evening, |n| moves[n.index()], &part(0.0, NEAR))?;
+        sweeps += even(mesh, on, holds, solid, evening, &|n| moves[n.index()], &part(0.0, NEAR))?;
         let came = near(mesh, on, holds, &mut survey, max_distance, evening, &part(NEAR, 1.0))?;
         sweeps += came.sweeps;
         if came.apart < NEARER * apart {
@@ -281,9 +281,17 @@ fn even_and_near(
             break;
         }
     }
-    let inside = |n: NodeId| on.anchors[n.index()] == Anchor::Inside;
-    let part = Part { whole: monitor, stage: FITTING, range: [INSIDE, 1.0] };
-    sweeps += even(mesh, on, holds, solid, Evening::INSIDE, inside, &part)?;
+    // Within planes and inside nodes take mesh and solid no farther from each other.
+    let slides = |n: NodeId| match on.anchors[n.index()] {
+        Anchor::Inside => true,
+        Anchor::Surface(s) => {
+            let is_planar = matches!(solid.surfaces()[s.index()].class, SurfaceClass::Planar { .. });
+            is_planar && on.reduction.members(s) == [s] && holds[n.index()] == Hold::Held
+        }
+        _ => false,
+    };
+    let part = Part { whole: monitor, stage: FITTING, range: [LAST, 1.0] };
+    sweeps += even(mesh, on, holds, solid, Evening::LAST, &slides, &part)?;
     Ok(sweeps)
 }
 

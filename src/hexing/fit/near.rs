@@ -98,7 +98,7 @@ pub(super) fn near(
         }
         best = mesh.positions.clone();
         let moves = |n: NodeId| came.far[n.index()];
-        let mut problem = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
+        let mut problem = Problem::within(&mesh.positions, &mesh.hexes, &moves, monitor)?;
         let gaps = Apart::new(&problem, &on.faces, survey);
         let worst = quality(mesh).0.map_or(GOOD, |worst| worst.min(GOOD));
         let places = Places { on, holds, target: &target, apart: gaps, worst, leave: 0.5 * max_distance };
@@ -139,7 +139,7 @@ fn follow(
     moved.nodes.iter().for_each(|n| is_near[n.index()] = true);
     widen(mesh, &mut is_near, RINGS, monitor)?;
     let moves = |n: NodeId| is_near[n.index()] && on.anchors[n.index()] == Anchor::Inside;
-    let mut inside = Problem::within(&mesh.positions, &mesh.hexes, moves, monitor)?;
+    let mut inside = Problem::within(&mesh.positions, &mesh.hexes, &moves, monitor)?;
     let sweeps = even_out(&mut inside, &Constraints::none(mesh.positions.len()), evening, monitor)?;
     inside.write_back(&mut mesh.positions);
     Ok(sweeps)

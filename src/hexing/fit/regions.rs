@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn each_region_is_judged_for_itself() {
         let (mesh, ends) = bar();
-        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, |_| true);
+        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|_| true);
         let mut anchors = vec![Anchor::Inside; mesh.positions.len()];
         ends.iter().for_each(|n| anchors[n.index()] = Anchor::Surface(SurfaceId(0)));
         let mut holds = Holds::drawn(&Plane, &anchors);
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn what_takes_the_mesh_away_from_a_mark_is_taken_back() {
         let (mesh, [end, _]) = bar();
-        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, |_| true);
+        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|_| true);
         let mut anchors = vec![Anchor::Inside; mesh.positions.len()];
         anchors[end.index()] = Anchor::Surface(SurfaceId(0));
         let mut holds = Holds::drawn(&Plane, &anchors);

@@ -86,7 +86,7 @@ pub(super) fn soften(
         let mut near = vec![false; mesh.positions.len()];
         low.iter().flat_map(|&h| mesh.hexes[h as usize]).for_each(|n| near[n.index()] = true);
         widen(mesh, &mut near, RINGS, monitor)?;
-        let mut problem = Problem::within(&mesh.positions, &mesh.hexes, |n| near[n.index()], monitor)?;
+        let mut problem = Problem::within(&mesh.positions, &mesh.hexes, &|n| near[n.index()], monitor)?;
         problem.order_by(4, |n| on.anchors[n.index()].freedom());
         let target = OnSolid::new(solid, &on.reduction);
         let mut guide = Holds::kept(&target, &on.anchors, holds, &mesh.positions);
