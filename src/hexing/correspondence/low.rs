@@ -12,8 +12,12 @@ use super::reduction::{CurveFate, LostCurve, Reason};
 use crate::hexing::steps::step_height;
 use crate::solid::SurfaceId;
 
-/// Steps lower than this many local edges are given up: farther than that from the solid a mesh is refined.
-const LOW: f64 = 0.2;
+/// Steps lower than this many edges, those there or the mean if that is less, are given up: of a solid that is 48 edges
+/// long that is a quarter of a percent.
+const LOW: f64 = 0.125;
+
+/// Steps that are shorter than this many of these edges are specks: their curves are too short for the edges anyhow.
+const LEAST: f64 = 0.5;
 
 /// Curves around a step that are shorter than so many times its height are its ends: others, such as the rim of a plate that
 /// it crosses, go on there from the top to the foot.
@@ -25,10 +29,12 @@ pub(super) fn give_up_low(network: &mut Network, boundary: &Boundary) {
     if solid.is_free_form() {
         return;
     }
+    let mean = boundary.lengths.iter().sum::<f64>() / boundary.lengths.len() as f64;
     for surface in solid.surfaces() {
         let Some(height) = step_height(solid, surface) else { continue };
         let place = network.point_along(surface.curves[0], 0.0);
-        if height < LOW * boundary.length_near(place) {
+        let edge = boundary.length_near(place).min(mean);
+        if height < LOW * edge && surface.area >= LEAST * edge * height {
             for &curve in &surface.curves {
                 let is_end = solid.curves()[curve.index()].length < END * height;
                 match network.is_kept(curve) {
