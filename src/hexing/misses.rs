@@ -2,7 +2,7 @@
 
 use super::background::{Background, Failure, OctreeMesh};
 use super::core::Core;
-use super::correspondence::{CurveFate, LostCurve, Reason, Reduction};
+use super::correspondence::{CurveFate, LostCurve, LostSurface, Reason, Reduction};
 use super::ground::Site;
 use super::merit::Taste;
 use super::options::HexingOptions;
@@ -71,7 +71,8 @@ pub(super) fn misses(
             failures.push(Failure::of_curve(solid, lost.curve, 0, finest));
         }
     }
-    for lost in reduction.lost_surfaces.iter().filter(|_| !solid.is_free_form()) {
+    let may_show = |lost: &&LostSurface| !solid.is_free_form() && lost.area >= finest * finest;
+    for lost in reduction.lost_surfaces.iter().filter(may_show) {
         failures.push(Failure::of_surface(solid, lost.surface, 0, finest));
     }
     if !core.report.has_right_euler() {

@@ -47,7 +47,7 @@ impl Evening {
 
     /// Such courses: none is the best for all meshes. The energies are r^2 and r.
     pub(crate) const ALL: [Self; 3] = [
-        Self { weights: Weights { doublings: 0, mu: 0.99 }, target: 0.95, sweeps: 16 },
+        Self { weights: Weights { doublings: 0, mu: 0.99 }, target: 0.95, sweeps: 12 },
         Self { weights: Weights { doublings: -1, mu: 0.99 }, target: 0.98, sweeps: 20 },
         Self { weights: Weights { doublings: 0, mu: 0.99 }, target: 0.98, sweeps: 12 },
     ];
