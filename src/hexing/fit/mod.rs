@@ -12,8 +12,9 @@
 //! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed again, for which nodes that are
 //!    off the solid, or on curves that nobody drew, may go a little farther;
 //! 7. `even`: all is smoothed for the mean;
-//! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places. Where they stay apart the
-//!    last two steps are made again with other courses, and what comes much nearer counts.
+//! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places. Where they stay far apart
+//!    the last two steps are made again around there, with other courses, and each counts that brings them much nearer;
+//! 9. `even` once more, for what is inside and in planes.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
 //! off the solid and is reported with its distance.
