@@ -287,7 +287,7 @@ mod tests {
         }
     }
 
-    /// In other orders, on other threads, and after searches in other trees.
+    /// In another order, and in other trees.
     #[test]
     fn what_is_found_does_not_depend_on_the_searches_before() {
         let triangles: Vec<[Point; 3]> = sheet(9).into_iter().chain(sheet(9)).collect();

@@ -5,8 +5,8 @@
 //!    region gets become one.
 //! 3. A region that gets none, because no path bounds it, takes the surface that most of it is nearest to.
 //! 4. A surface that no region got, because all its curves were given up, becomes one with the surface of the quads that
-//!    are nearest to it; it is lost if they are too few for its area, and no surface that it is
-//!    one with anyhow is found.
+//!    are nearest to it; it is lost if they are too few for its area, and no surface that
+//!    it is one with anyhow is found.
 
 use std::collections::BTreeMap;
 

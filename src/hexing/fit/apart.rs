@@ -118,8 +118,8 @@ fn keep_farthest(samples: &mut Vec<(f64, Point)>) {
     samples.truncate(SAMPLES);
 }
 
-/// Samples of a solid for a mesh with edges of this mean length: its vertices, the middles of its triangles, and points of edges where it bends. Where
-/// they are dense one stands for those around.
+/// Samples of a solid for a mesh with edges of this mean length: its vertices, the middles of its triangles, and points of
+/// edges where it bends. Where they are dense one stands for those around.
 fn samples(edge: f64, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<Point>, Cancelled> {
     let mut sparse = Sparse {
         origin: solid.bounds().min,

@@ -282,7 +282,7 @@ fn even_and_near(
             break;
         }
     }
-    // Within planes and inside nodes take mesh and solid no farther from each other.
+    // What slides within a plane, and what is inside, takes mesh and solid no farther from each other.
     let slides = |n: NodeId| match on.anchors[n.index()] {
         Anchor::Inside => true,
         Anchor::Surface(s) => {
