@@ -25,12 +25,6 @@ use crate::solid::SolidModel;
 /// How the lines of a grid are moved from try to try, as shares of an edge.
 const SHIFTS: [[f64; 3]; 2] = [[0.5; 3], [0.25, 0.5, 0.75]];
 
-/// A sweep that is farther from the solid than so many edges does not show some part of it that a grid may show.
-const ASTRAY: f64 = 0.4;
-
-/// What is farther from the solid than so many edges is not what was asked for: then an octree is tried.
-const OTHER: f64 = 0.4;
-
 /// The background of another try has at most so many times the hexes of the first of its kind.
 const GROWTH: f64 = 4.0;
 
@@ -245,11 +239,8 @@ impl Search<'_> {
 
     /// Is what came of it so far not what was asked for: of another kind, or far off, or without many of the features?
     fn is_other(&self) -> bool {
-        self.best_report().is_none_or(|best| {
-            off_euler(&best.core) > 0
-                || distance(best) > OTHER * self.site.options.edge_length
-                || captured(best.features.as_ref()) < self.site.taste.shown
-        })
+        self.best_report()
+            .is_none_or(|best| self.is_astray() || captured(best.features.as_ref()) < self.site.taste.shown)
     }
 
     /// Has something been made of a background of this kind?
@@ -260,7 +251,8 @@ impl Search<'_> {
     /// Is the best attempt so far off that it does not show some part of the solid?
     fn is_astray(&self) -> bool {
         self.best_report().is_none_or(|best| {
-            off_euler(&best.core) > 0 || distance(best) > ASTRAY * self.site.options.edge_length
+            let apart = distance(best) / self.site.options.edge_length;
+            off_euler(&best.core) > 0 || apart > self.site.taste.astray
         })
     }
 
@@ -289,7 +281,21 @@ impl Search<'_> {
 mod tests {
     use super::*;
     use crate::Silent;
+    use crate::geometry::Point;
     use crate::solid::testing::{moved, solid, voxels};
+
+    /// A sweep captures its walls, which no grid does, and is near the solid but for a dimple in the top.
+    #[test]
+    fn a_sweep_is_refined_before_a_grid_is_tried() {
+        let dimple = |p: Point| 0.4 * (1.0 - (p.truncate() - 10.0).length() / 3.0).max(0.0);
+        let bent = |p: Point| Point::new(p.x + 3.0 * libm::sin(p.y / 4.0), p.y, p.z);
+        let plate = voxels([20, 20, 6], |_| true);
+        let surface = moved(plate, |p| bent(if p.z == 6.0 { p - Point::Z * dimple(p) } else { p }));
+        let options = HexingOptions { edge_length: 1.5, max_distance: Some(0.1), ..HexingOptions::default() };
+        let Body { report, .. } = mesh_body(&solid(&surface), &options, &Silent).unwrap();
+        let kinds: Vec<_> = report.attempts.iter().map(|a| (a.background, a.levels.len())).collect();
+        assert_eq!(kinds[..2], [(Background::Swept, 1), (Background::Swept, 2)]);
+    }
 
     #[test]
     fn a_recess_shallower_than_half_an_edge_is_shown_by_smaller_cells() {

@@ -27,6 +27,8 @@ pub(super) struct Taste {
     lost: f64,
     /// Mesh and solid may be so many edges from each other before smaller cells are tried.
     pub(super) near: f64,
+    /// What is farther from the solid than so many edges does not show some part of it, that another background may show.
+    pub(super) astray: f64,
     /// What shows less than this share of the curves and surfaces is not what was asked for.
     pub(super) shown: f64,
     /// An attempt that loses a greater share of the features than another by this is given up before it is fitted.
@@ -35,11 +37,11 @@ pub(super) struct Taste {
 
 impl Taste {
     /// For solids that somebody drew.
-    const DRAWN: Self = Self { good: 0.35, lost: 1.0, near: 0.2, shown: 0.5, loss: 0.02 };
+    const DRAWN: Self = Self { good: 0.35, lost: 1.0, near: 0.2, astray: 0.4, shown: 0.5, loss: 0.02 };
 
     /// For free forms: nobody drew their curves, and nothing tells cells where to be poor. Smaller cells take more of the mean
     /// than what they show of a scan is worth.
-    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, near: 0.5, shown: 0.0, loss: 1.0 };
+    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, near: 0.5, astray: 0.5, shown: 0.0, loss: 1.0 };
 
     /// For this solid.
     pub(super) fn of(solid: &SolidModel) -> Self {

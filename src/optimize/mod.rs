@@ -51,7 +51,7 @@ pub struct OptimizeOptions {
     pub target: f64,
     /// Sweeps over the tangled part before the cells left are given up.
     pub untangle_sweeps: usize,
-    /// Courses of smoothing, at most 4: the first looks at shape alone, each further one more at the worst corners.
+    /// Courses of smoothing, at most 5: the first looks at shape alone, each further one more at the worst corners.
     pub courses: usize,
     /// Sweeps over the cells below the target in each of the courses of smoothing.
     pub smooth_sweeps: usize,

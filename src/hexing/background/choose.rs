@@ -51,9 +51,10 @@ const GAIN: f64 = 0.03;
 /// A swept mesh with worse quads is no choice.
 const LEAST_QUAD: f64 = 0.15;
 
-/// May a sweep that captures such a share of the area be chosen? Its quads need not be made if not.
+/// May a sweep that captures such a share of the area be chosen? Its quads need not be made if not. Free forms are not
+/// swept: nobody drew them along any direction.
 pub fn may_sweep(solid: &SolidModel, axes: DMat3, surface_capture: f64) -> bool {
-    surface_capture >= grid_capture(solid, axes) + GAIN
+    !solid.is_free_form() && surface_capture >= grid_capture(solid, axes) + GAIN
 }
 
 /// Chooses between backgrounds, by the boundary's area that they capture, unless one is `wanted`. `wants_levels` tells
@@ -96,7 +97,8 @@ pub fn grid_capture(solid: &SolidModel, axes: DMat3) -> f64 {
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
     use super::*;
-    use crate::solid::testing::{cuboid, cylinder, solid};
+    use crate::geometry::Point;
+    use crate::solid::testing::{cuboid, cylinder, moved, solid};
 
     #[test]
     fn grids_capture_what_is_along_their_axes() {
@@ -104,6 +106,13 @@ mod tests {
         let turn = DMat3::from_rotation_z(0.3);
         // Top and bottom alone.
         assert!((grid_capture(&solid(&cuboid([1, 2, 3])), turn) - 4.0 / 22.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn free_forms_are_not_swept() {
+        let ball = moved(cuboid([8, 8, 8]), |p| (p - Point::splat(4.0)).normalize());
+        let may = |surface| may_sweep(&solid(surface), DMat3::IDENTITY, 1.0);
+        assert!(!may(&ball) && may(&cylinder(60)));
     }
 
     #[test]

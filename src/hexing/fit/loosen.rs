@@ -14,12 +14,11 @@ use crate::optimize::{OptimizeOptions, Problem, smooth};
 use crate::solid::{SolidModel, SurfaceId};
 use crate::{Cancelled, Monitor};
 
-/// How often nodes are drawn to surfaces, and cells smoothed, as long as that brings some of them nearer by this share.
-const ROUNDS: usize = 2;
-const ENOUGH: f64 = 0.02;
+/// The share of the work that is done when nodes were drawn to surfaces and cells are smoothed.
+const UNLOCK: f64 = 0.5;
 
-/// Draws those nodes to the nearest surface beside, where that does not take the mesh away from where they belong. Returns
-/// the number of sweeps.
+/// Draws those nodes to the nearest surface beside, where that does not take the mesh away from where they belong, and smooths
+/// the cells. Not on free forms, whose curves nobody drew. Returns the number of sweeps.
 pub(super) fn loosen(
     problem: &mut Problem,
     holds: &mut Holds,
@@ -27,7 +26,8 @@ pub(super) fn loosen(
     smoothing: &OptimizeOptions,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
-    let Some(solid) = holds.target.solid() else { return Ok(0) };
+    let Some(solid) = holds.target.solid().filter(|solid| !solid.is_free_form()) else { return Ok(0) };
+    let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
     let mut anchors = holds.anchors.to_vec();
     let mut nodes = Vec::new();
     for n in drawn(problem, holds) {
@@ -48,24 +48,15 @@ pub(super) fn loosen(
     }
     let marks = marks(problem, holds, on, &nodes);
     let mut loose = Holds::of(holds.target, &anchors, std::mem::take(&mut holds.holds));
-    let mut sweeps = 0;
-    for round in 0..ROUNDS {
-        let part = |from: f64, to: f64| Part {
-            whole: monitor,
-            stage: FITTING,
-            range: [from, to].map(|share| (round as f64 + share) / ROUNDS as f64),
-        };
-        let unlocked = unlock(problem, &mut loose, &[], &marks, &part(0.0, 0.5))?;
-        sweeps += unlocked.sweeps;
+    let unlocked = unlock(problem, &mut loose, &[], &marks, &part(0.0, UNLOCK))?;
+    let mut sweeps = unlocked.sweeps;
+    if unlocked.gain > 0.0 {
         loose.weight = 0.0;
         // Sliding they would go farther from where they belong.
         let unpinned = loose.holds.clone();
         nodes.iter().for_each(|id| loose.holds[id.index()] = Hold::Pinned);
-        sweeps += smooth(problem, &loose, smoothing, &part(0.5, 1.0))?;
+        sweeps += smooth(problem, &loose, smoothing, &part(UNLOCK, 1.0))?;
         loose.holds = unpinned;
-        if unlocked.gain < ENOUGH {
-            break;
-        }
     }
     holds.holds = loose.holds;
     for &id in &nodes {

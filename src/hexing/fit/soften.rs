@@ -40,17 +40,17 @@ const NOISE: f64 = 2.0;
 const THERE: f64 = 1e-6;
 
 /// Where no curve is left, cells are smoothed as long as that raises the worst by this.
-const ENOUGH: f64 = 0.005;
+const ENOUGH: f64 = 0.002;
 
 /// How often curves are given up.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 12;
 
 /// Rings of cells around poor ones whose nodes move.
 const RINGS: usize = 3;
 
 /// How the cells there are smoothed.
 const SMOOTHING: OptimizeOptions =
-    OptimizeOptions { target: 0.65, untangle_sweeps: 0, courses: 4, smooth_sweeps: 6, worst_sweeps: 12 };
+    OptimizeOptions { target: 0.65, untangle_sweeps: 0, courses: 5, smooth_sweeps: 6, worst_sweeps: 20 };
 
 /// Mends what can be mended; nodes leave where they belong by no more than half of `max_distance`, if they are not farther
 /// already. Returns the number of sweeps.
