@@ -291,7 +291,8 @@ mod tests {
         let bent = |p: Point| Point::new(p.x + 3.0 * libm::sin(p.y / 4.0), p.y, p.z);
         let plate = voxels([20, 20, 6], |_| true);
         let surface = moved(plate, |p| bent(if p.z == 6.0 { p - Point::Z * dimple(p) } else { p }));
-        let options = HexingOptions { edge_length: 1.5, max_distance: Some(0.1), ..HexingOptions::default() };
+        let options =
+            HexingOptions { edge_length: 1.5, max_distance: Some(0.08), ..HexingOptions::default() };
         let Body { report, .. } = mesh_body(&solid(&surface), &options, &Silent).unwrap();
         let kinds: Vec<_> = report.attempts.iter().map(|a| (a.background, a.levels.len())).collect();
         assert_eq!(kinds[..2], [(Background::Swept, 1), (Background::Swept, 2)]);

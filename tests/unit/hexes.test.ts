@@ -33,7 +33,7 @@ End
 
 const SQUARE = 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n';
 
-/** A ball whose transitions take seconds to smooth, in a grid of {@link MANY}. */
+/** A ball whose transitions take long to smooth, in a grid of {@link MANY}. */
 const MUCH: HexOptions = { method: 'two', regions: [{ kind: 'sphere', center: [5, 5, 5], radius: 3, level: 3 }] };
 const MANY = { min: [0, 0, 0], max: [10, 10, 10] } as const;
 

@@ -8,7 +8,7 @@
 //! 3. `unlock`: around nodes that got stuck the others are let go for a while;
 //! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: as long
 //!    as fewer nodes are stuck than before, the last two steps are made again, twice at most;
-//! 5. `loosen`: nodes that cannot get to their curve rest on a surface beside it;
+//! 5. `loosen`: nodes that cannot get to a curve that somebody drew rest on a surface beside it;
 //! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed again, for which nodes that are
 //!    off the solid, or on curves that nobody drew, may go a little farther;
 //! 7. `even`: all is smoothed for the mean;
