@@ -6,17 +6,18 @@
 
 use std::cell::Cell;
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, f64x4};
+
+use super::lanes::{LANES, Row, Rows, Vector, Vectors, level};
 use super::{Aabb, Point, closest_on_triangle};
 use crate::{Cancelled, Monitor, Silent};
-
-/// A leaf of the tree has at most this many facets.
-const LEAF: usize = 4;
 
 /// The monitor is asked before more facets than this are split.
 const MANY: usize = 1 << 14;
 
-/// More levels than a tree of 2^32 facets has, which are split in halves.
-const DEPTH: usize = 48;
+/// More boxes than ever wait: three a level, of which 2^32 facets have no more than 17.
+const WAITING: usize = 64;
 
 /// How many trees a thread remembers its last search in, at most.
 const REMEMBERED: usize = 64;
@@ -49,12 +50,12 @@ impl Facet for [Point; 3] {
     }
 }
 
-/// Finds, among many facets, the one that is nearest to a point: a tree of boxes, split in halves along their longest
-/// side. General R-trees keep a heap for each question, and take several times as long; optimisation asks millions.
+/// Finds, among many facets, the one that is nearest to a point: a tree of boxes, four of which are looked at side by side.
+/// General R-trees keep a heap for each question, and take several times as long; optimisation asks millions.
 #[derive(Debug)]
 pub struct NearestFacet<F> {
-    /// The root first, each branch before its halves.
-    nodes: Vec<Node>,
+    /// The root first, if there are facets; each branch before what is below.
+    branches: Vec<Branch>,
     /// In the order of the tree.
     facets: Vec<Numbered<F>>,
     /// The greatest coordinate, either way.
@@ -71,18 +72,36 @@ struct Numbered<F> {
     index: u32,
 }
 
+/// Four boxes. Where there are fewer the rest are infinitely far.
 #[derive(Clone, Copy, Debug)]
-struct Node {
-    bounds: Aabb,
-    below: Below,
+struct Branch {
+    min: Rows,
+    max: Rows,
+    below: [Below; LANES],
 }
 
+/// What is in a box.
 #[derive(Clone, Copy, Debug)]
 enum Below {
-    /// The left half is the next node; where the right one is.
-    Right(u32),
-    /// The first facet, and how many there are.
-    Leaf(u32, u32),
+    Branch(u32),
+    Facet(u32),
+}
+
+impl Branch {
+    /// How far `p` is from each of the boxes, squared.
+    #[inline(always)]
+    fn distances<S: Simd>(&self, simd: S, p: Vectors<S>) -> Row {
+        let (min, max) = (Vectors::load(simd, &self.min), Vectors::load(simd, &self.max));
+        let zero = f64x4::splat(simd, 0.0);
+        let (below, above) = (min - p, p - max);
+        let outside = |below: f64x4<S>, above: f64x4<S>| below.max(above).max(zero);
+        let gap = Vectors {
+            x: outside(below.x, above.x),
+            y: outside(below.y, above.y),
+            z: outside(below.z, above.z),
+        };
+        gap.dot(gap).to_array()
+    }
 }
 
 /// The point of a facet that is closest to another, how far that is, squared, and the facet's place in the tree.
@@ -129,43 +148,14 @@ impl<F: Facet> NearestFacet<F> {
             facet,
             index: u32::try_from(index).expect("more than 2^32 facets"),
         });
-        let mut all = Self { nodes: Vec::new(), facets: numbered.collect(), extent: 0.0 };
-        let mut facets = std::mem::take(&mut all.facets);
-        if !facets.is_empty() {
-            all.branch(&mut facets, 0, monitor)?;
-        }
-        if let Some(Node { bounds, .. }) = all.nodes.first() {
-            all.extent = bounds.min.abs().max(bounds.max.abs()).max_element();
-        }
-        Ok(Self { facets, ..all })
-    }
-
-    /// Adds the nodes of these facets, which are those from `first` on.
-    fn branch(
-        &mut self,
-        facets: &mut [Numbered<F>],
-        first: usize,
-        monitor: &dyn Monitor,
-    ) -> Result<(), Cancelled> {
-        if facets.len() > MANY {
-            monitor.proceed()?;
-        }
+        let mut facets: Vec<Numbered<F>> = numbered.collect();
         let bounds = Aabb::around(facets.iter().flat_map(|f| f.facet.corners()));
-        let place = self.nodes.len();
-        self.nodes.push(Node { bounds, below: Below::Leaf(first as u32, facets.len() as u32) });
-        if facets.len() <= LEAF {
-            return Ok(());
+        let mut branches = Vec::new();
+        if !facets.is_empty() {
+            branch(&mut branches, &mut facets, 0, monitor)?;
         }
-        let size = bounds.size();
-        let axis = (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest });
-        let middle = |f: &Numbered<F>| f.facet.corners().iter().map(|p| p[axis]).sum::<f64>();
-        let half = facets.len() / 2;
-        facets
-            .select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.index.cmp(&b.index)));
-        let (left, right) = facets.split_at_mut(half);
-        self.branch(left, first, monitor)?;
-        self.nodes[place].below = Below::Right(self.nodes.len() as u32);
-        self.branch(right, first + half, monitor)
+        let extent = bounds.min.abs().max(bounds.max.abs()).max_element();
+        Ok(Self { branches, facets, extent })
     }
 
     /// The facet that is nearest to `p`, the first of those that are equally near; `None` if there are no facets.
@@ -184,49 +174,56 @@ impl<F: Facet> NearestFacet<F> {
         // Two trees that share a place only spoil each other's beginning.
         let memory = std::ptr::from_ref(self).addr() / align_of_val(self) % REMEMBERED;
         let first = LAST.with(|last| last[memory].get() as usize).min(last_facet);
+        let best = dispatch!(level(), simd => self.nearer(simd, first, p));
+        LAST.with(|last| last[memory].set(best.place as u32));
+        Some((&self.facets[best.place], best.point))
+    }
+
+    /// The nearest facet, where the one at the place `first` is near.
+    #[inline(always)]
+    fn nearer<S: Simd>(&self, simd: S, first: usize, p: Point) -> Closest {
         let rounding = ROUNDING * (self.extent + p.abs().max_element());
         let mut best = self.closest(first, p);
         let mut limit = best.limit(rounding);
-        let mut waiting = [(0.0, 0); DEPTH];
+        let at = Vectors::splat(simd, p);
+        let mut waiting = [(0.0, Below::Branch(0)); WAITING];
         let mut count = 1;
         while count > 0 {
             count -= 1;
-            let (mut distance, mut at) = waiting[count];
-            // Down to the nearer half each time, while the other waits.
-            while let Below::Right(right) = self.nodes[at as usize].below
-                && distance <= limit
-            {
-                let mut halves =
-                    [at + 1, right].map(|k| (self.nodes[k as usize].bounds.distance_squared(p), k));
-                if halves[1].0 < halves[0].0 {
-                    halves.swap(0, 1);
-                }
-                if halves[1].0 <= limit {
-                    waiting[count] = halves[1];
-                    count += 1;
-                }
-                (distance, at) = halves[0];
-            }
-            let Below::Leaf(first, len) = self.nodes[at as usize].below else { continue };
+            let (distance, below) = waiting[count];
             if distance > limit {
                 continue;
             }
-            for place in first as usize..(first + len) as usize {
-                let numbered = &self.facets[place];
-                let bounds = Aabb::around(numbered.facet.corners());
-                if bounds.distance_squared(p) > limit {
-                    continue;
+            match below {
+                Below::Branch(branch) => {
+                    let branch = &self.branches[branch as usize];
+                    let distances = branch.distances(simd, at);
+                    let first = count;
+                    for (distance, below) in distances.into_iter().zip(branch.below) {
+                        if distance <= limit {
+                            // The nearest last, which is looked at next.
+                            let mut place = count;
+                            while place > first && waiting[place - 1].0 < distance {
+                                waiting[place] = waiting[place - 1];
+                                place -= 1;
+                            }
+                            waiting[place] = (distance, below);
+                            count += 1;
+                        }
+                    }
                 }
-                let other = self.closest(place, p);
-                let is_first = || numbered.index < self.facets[best.place].index;
-                if other.distance < best.distance || other.distance == best.distance && is_first() {
-                    limit = other.limit(rounding);
-                    best = other;
+                Below::Facet(place) => {
+                    let (place, index) = (place as usize, self.facets[place as usize].index);
+                    let other = self.closest(place, p);
+                    let is_first = || index < self.facets[best.place].index;
+                    if other.distance < best.distance || other.distance == best.distance && is_first() {
+                        limit = other.limit(rounding);
+                        best = other;
+                    }
                 }
             }
         }
-        LAST.with(|last| last[memory].set(best.place as u32));
-        Some((&self.facets[best.place], best.point))
+        best
     }
 
     /// The point of the facet at this place of the tree that is closest to `p`.
@@ -239,6 +236,59 @@ impl<F: Facet> NearestFacet<F> {
     pub fn closest_point(&self, p: Point) -> Option<Point> {
         self.nearest(p).map(|nearest| nearest.point)
     }
+}
+
+/// Adds a branch of these facets, which are those from `first` on, and all that is below it.
+fn branch<F: Facet>(
+    branches: &mut Vec<Branch>,
+    facets: &mut [Numbered<F>],
+    first: usize,
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
+    if facets.len() > MANY {
+        monitor.proceed()?;
+    }
+    let place = branches.len();
+    branches.push(Branch {
+        min: [[f64::INFINITY; LANES]; 3],
+        max: [[f64::NEG_INFINITY; LANES]; 3],
+        below: [Below::Branch(place as u32); LANES],
+    });
+    let mut first = first;
+    for (lane, part) in quarters(facets).into_iter().filter(|part| !part.is_empty()).enumerate() {
+        let bounds = Aabb::around(part.iter().flat_map(|f| f.facet.corners()));
+        let (count, next) = (part.len(), branches.len() as u32);
+        let branch = &mut branches[place];
+        for axis in 0..3 {
+            (branch.min[axis][lane], branch.max[axis][lane]) = (bounds.min[axis], bounds.max[axis]);
+        }
+        branch.below[lane] = if count == 1 { Below::Facet(first as u32) } else { Below::Branch(next) };
+        if count > 1 {
+            self::branch(branches, part, first, monitor)?;
+        }
+        first += count;
+    }
+    Ok(())
+}
+
+/// Facets in four parts of about as many, which lie apart.
+fn quarters<F: Facet>(facets: &mut [Numbered<F>]) -> [&mut [Numbered<F>]; LANES] {
+    let (left, right) = halves(facets);
+    let ((a, b), (c, d)) = (halves(left), halves(right));
+    [a, b, c, d]
+}
+
+/// Facets in two parts, split across the longest side of the box around them.
+fn halves<F: Facet>(facets: &mut [Numbered<F>]) -> (&mut [Numbered<F>], &mut [Numbered<F>]) {
+    let half = facets.len() / 2;
+    if half > 0 {
+        let size = Aabb::around(facets.iter().flat_map(|f| f.facet.corners())).size();
+        let axis = (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest });
+        let middle = |f: &Numbered<F>| f.facet.corners().iter().map(|p| p[axis]).sum::<f64>();
+        facets
+            .select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.index.cmp(&b.index)));
+    }
+    facets.split_at_mut(half)
 }
 
 #[cfg(test)]

@@ -49,8 +49,8 @@ const STEPS: [f64; 3] = [0.3, 0.15, 0.05];
 const SHARES: [f64; 3] = [1.0, 0.5, 0.25];
 const FARTHEST: usize = 8;
 
-/// Nodes between two questions whether to stop.
-const BATCH: usize = 16;
+/// Nodes that are tried before any of them is moved.
+const BATCH: usize = 256;
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -194,10 +194,9 @@ impl Places<'_> {
             let nodes: Vec<u32> =
                 problem.colours[colour].iter().copied().filter(|&n| awake[n as usize]).collect();
             for batch in nodes.chunks(BATCH) {
-                monitor.proceed()?;
-                let best = parallel::collect_with(batch.len(), Star::default, |star, k| {
-                    self.best(problem, batch[k], star)
-                });
+                let best = parallel::try_collect(batch.len(), monitor, |k| {
+                    self.best(problem, batch[k], &mut Star::default())
+                })?;
                 for (&node, to) in batch.iter().zip(best) {
                     if let Some(to) = to {
                         problem.points[node as usize] = to;

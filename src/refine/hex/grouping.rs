@@ -6,7 +6,7 @@ use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{FACES, NEIGHBOURS};
 use crate::mesh::topology::{Bins, HexFaces, Side, hex_of};
 use crate::monitor::batches;
-use crate::{Cancelled, Monitor};
+use crate::{Cancelled, Monitor, parallel};
 
 /// The hexes of a mesh, with what walking from block to block takes.
 pub(super) struct Grouping<'a> {
@@ -14,6 +14,8 @@ pub(super) struct Grouping<'a> {
     faces: HexFaces,
     /// The uses of each node: eight times a hex, and the corner there.
     uses: Bins,
+    /// Has the node eight hexes, and four at each of its edges?
+    is_regular: Vec<bool>,
 }
 
 /// The node in the middle of a block.
@@ -40,7 +42,17 @@ impl<'a> Grouping<'a> {
         let faces = HexFaces::within(node_count, hexes, monitor)?;
         let node = |k: usize| hexes[k / 8][k % 8].index();
         let uses = Bins::monitored(node_count, 8 * hexes.len(), node, monitor)?;
-        Ok(Self { hexes, faces, uses })
+        let is_regular = parallel::try_collect(node_count, monitor, |node| is_regular(hexes, uses.at(node)))?;
+        Ok(Self { hexes, faces, uses, is_regular })
+    }
+
+    /// The hexes that share a node with one of these, or are one, ascending.
+    pub(super) fn around(&self, hexes: &[u32]) -> Vec<u32> {
+        let mut is_near = vec![false; self.hexes.len()];
+        for node in hexes.iter().flat_map(|&hex| self.hexes[hex as usize]) {
+            self.hexes_at(node).for_each(|(hex, _)| is_near[hex] = true);
+        }
+        (0..is_near.len() as u32).filter(|&hex| is_near[hex as usize]).collect()
     }
 
     /// The block of each hex: blocks have the `wanted` ones of the refined hexes, as far as these can be in any, with few
@@ -107,15 +119,9 @@ impl<'a> Grouping<'a> {
         self.uses.at(node.index()).iter().map(|&k| (k as usize / 8, k as usize % 8))
     }
 
-    /// Can a node be the middle of a block, of hexes that are in none? It has eight, and four at each of its edges.
+    /// Can a node be the middle of a block, of hexes that are in none?
     fn is_middle(&self, node: NodeId, is_taken: &[bool]) -> bool {
-        let ends = || {
-            self.hexes_at(node)
-                .flat_map(|(hex, corner)| NEIGHBOURS[corner].map(|k| self.hexes[hex][usize::from(k)]))
-        };
-        self.uses.at(node.index()).len() == 8
-            && self.hexes_at(node).all(|(hex, _)| !is_taken[hex])
-            && ends().all(|end| ends().filter(|&other| other == end).count() == 4)
+        self.is_regular[node.index()] && self.hexes_at(node).all(|(hex, _)| !is_taken[hex])
     }
 
     /// The lattice of blocks from the one around `middle`, as far as there are refined hexes in it or one block from it.
@@ -174,4 +180,16 @@ impl<'a> Grouping<'a> {
             Some((beyond, ends.into_iter().find(|end| !self.faces.nodes[face.index()].contains(end))?))
         })
     }
+}
+
+/// Has a node with these uses eight hexes, and four at each of its edges?
+fn is_regular(hexes: &[[NodeId; 8]], uses: &[u32]) -> bool {
+    let Ok(uses) = <[u32; 8]>::try_from(uses) else { return false };
+    let mut ends = uses.map(|place| {
+        let (hex, corner) = (place as usize / 8, place as usize % 8);
+        NEIGHBOURS[corner].map(|k| hexes[hex][usize::from(k)])
+    });
+    let ends = ends.as_flattened_mut();
+    ends.sort_unstable();
+    ends.chunk_by(|a, b| a == b).all(|same| same.len() == 4)
 }

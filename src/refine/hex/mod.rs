@@ -55,6 +55,7 @@ mod materials;
 mod open;
 mod options;
 mod outline;
+mod part;
 mod pillow;
 mod pinch;
 mod pipeline;

@@ -16,6 +16,7 @@ use super::grouping::Grouping;
 use super::heritage::Heritage;
 use super::options::{Added, Growth, HexOptions, HexRefineError, Method, check_size};
 use super::outline::Outline;
+use super::part::Part;
 use super::refinement::HexRefinement;
 use super::stage::{Joining, StageError, StageMesh, joining};
 use super::trees::{TreeLevel, Trees};
@@ -241,23 +242,22 @@ impl<'a> HexPlan<'a> {
             return Ok(());
         }
         let mesh = StageMesh::of_mesh(&self.input, monitor)?;
-        let mut grouping = None;
+        let mut joined = joining(&mesh, base.is_refined, monitor)?;
+        if matches!(joined, Joining::Possible) {
+            return Ok(());
+        }
+        let grouping = Grouping::of(mesh.positions.len(), &mesh.hexes, monitor)?;
         loop {
             let base = trees.level(0);
-            let joining = joining(&mesh, base.is_refined, monitor)?;
-            let at_fault = match &joining {
+            let at_fault = match &joined {
                 Joining::Possible => return Ok(()),
                 Joining::Ungrouped(hexes) => hexes.clone(),
                 Joining::Conflict(_) => {
                     (0..base.elements.len() as u32).filter(|&e| base.is_refined[e as usize]).collect()
                 }
             };
-            let grouping = match &mut grouping {
-                Some(known) => known,
-                none => none.insert(Grouping::of(mesh.positions.len(), &mesh.hexes, monitor)?),
-            };
             let of_blocks = rest_of_blocks(&grouping.blocks(base.is_refined, &at_fault, monitor)?, base);
-            match joining {
+            match joined {
                 _ if !of_blocks.is_empty() => self.refine_unasked(trees, &of_blocks, monitor)?,
                 Joining::Conflict(more) => {
                     self.may_grow(trees, (0, &more), INSEPARABLE)?;
@@ -272,6 +272,14 @@ impl<'a> HexPlan<'a> {
                     self.refine_unasked(trees, &rest, monitor)?;
                 }
             }
+            // All that is asked of the mesh now is asked of hexes at nodes of the refined ones.
+            let base = trees.level(0);
+            let part = Part::of(&mesh, grouping.around(base.refined));
+            joined = match joining(&part.mesh, &part.flags(base.is_refined), monitor)? {
+                Joining::Possible => Joining::Possible,
+                Joining::Conflict(more) => Joining::Conflict(part.in_whole(&more)),
+                Joining::Ungrouped(hexes) => Joining::Ungrouped(part.in_whole(&hexes)),
+            };
         }
     }
 

@@ -73,9 +73,11 @@ impl Making {
     }
 }
 
-/// Makes the library's work run on `threads` threads.
+/// Makes the library's work run on `threads` threads, of which this is one: a thread from without would have to wake
+/// others for every loop, and wait for them.
 pub(super) fn use_threads(threads: u16) -> Result<(), Failure> {
-    rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|error| {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).use_current_thread();
+    pool.build_global().map_err(|error| {
         Failure::refused(
             "threads-not-started",
             format!("{threads} threads cannot be started: {error}; give fewer"),
