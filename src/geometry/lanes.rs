@@ -136,13 +136,18 @@ impl<S: Simd> Vectors<S> {
         }
     }
 
+    /// Four points side by side.
+    #[inline(always)]
+    pub(crate) fn of(simd: S, [a, b, c, d]: [Point; LANES]) -> Self {
+        Self::load(simd, &[[a.x, b.x, c.x, d.x], [a.y, b.y, c.y, d.y], [a.z, b.z, c.z, d.z]])
+    }
+
     /// The corners of four hexes.
     #[inline(always)]
     pub(crate) fn corners(simd: S, hexes: &[[Point; 8]; LANES]) -> [Self; 8] {
         let mut corners = [Self::splat(simd, Point::ZERO); 8];
         for (k, corner) in corners.iter_mut().enumerate() {
-            let [a, b, c, d] = [hexes[0][k], hexes[1][k], hexes[2][k], hexes[3][k]];
-            *corner = Self::load(simd, &[[a.x, b.x, c.x, d.x], [a.y, b.y, c.y, d.y], [a.z, b.z, c.z, d.z]]);
+            *corner = Self::of(simd, [hexes[0][k], hexes[1][k], hexes[2][k], hexes[3][k]]);
         }
         corners
     }

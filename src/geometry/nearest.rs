@@ -5,6 +5,7 @@
 //! depend on where it began.
 
 use std::cell::Cell;
+use std::ops::Range;
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f64x4};
@@ -21,6 +22,9 @@ const WAITING: usize = 64;
 
 /// How many trees a thread remembers its last search in, at most.
 const REMEMBERED: usize = 64;
+
+/// No place in a tree.
+const NOWHERE: usize = usize::MAX;
 
 /// A facet's distance may be computed less than that of the box around it by this share of the greatest coordinate.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -144,18 +148,24 @@ impl<F: Facet> NearestFacet<F> {
     /// # Panics
     /// As [`new`](Self::new).
     pub fn within(facets: impl IntoIterator<Item = F>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let numbered = facets.into_iter().enumerate().map(|(index, facet)| Numbered {
-            facet,
-            index: u32::try_from(index).expect("more than 2^32 facets"),
+        let mut facets: Vec<Option<F>> = facets.into_iter().map(Some).collect();
+        let middle = |facet: &F| facet.corners().iter().sum::<Point>() / facet.corners().len() as f64;
+        let mut order: Vec<Middle> = (0..u32::try_from(facets.len()).expect("no more than 2^32 facets"))
+            .zip(facets.iter().flatten())
+            .map(|(index, facet)| Middle { index, at: middle(facet) })
+            .collect();
+        sort(&mut order, monitor)?;
+        let taken = order.iter().map(|&Middle { index, .. }| Numbered {
+            facet: facets[index as usize].take().expect("each is there once"),
+            index,
         });
-        let mut facets: Vec<Numbered<F>> = numbered.collect();
-        let bounds = Aabb::around(facets.iter().flat_map(|f| f.facet.corners()));
-        let mut branches = Vec::new();
-        if !facets.is_empty() {
-            branch(&mut branches, &mut facets, 0, monitor)?;
+        let facets: Vec<Numbered<F>> = taken.collect();
+        let mut all = Self { branches: Vec::with_capacity(facets.len() / 2), facets, extent: 0.0 };
+        if !all.facets.is_empty() {
+            let bounds = branch(&mut all.branches, &all.facets, 0..all.facets.len(), monitor)?;
+            all.extent = bounds.min.abs().max(bounds.max.abs()).max_element();
         }
-        let extent = bounds.min.abs().max(bounds.max.abs()).max_element();
-        Ok(Self { branches, facets, extent })
+        Ok(all)
     }
 
     /// The facet that is nearest to `p`, the first of those that are equally near; `None` if there are no facets.
@@ -168,22 +178,32 @@ impl<F: Facet> NearestFacet<F> {
         self.found(p).map(|(numbered, _)| &numbered.facet)
     }
 
+    /// As [`nearest`](Self::nearest), of the facets whose distance, squared, is no greater than `most`.
+    pub fn nearest_within(&self, p: Point, most: f64) -> Option<Nearest> {
+        if self.facets.is_empty() {
+            return None;
+        }
+        let none = Closest { distance: most, place: NOWHERE, point: p };
+        let Closest { place, point, .. } = dispatch!(level(), simd => self.nearer(simd, none, p));
+        Some(Nearest { facet: self.facets.get(place)?.index as usize, point })
+    }
+
     /// Of all facets that with the least distance as it is computed, and of these the first.
     fn found(&self, p: Point) -> Option<(&Numbered<F>, Point)> {
         let last_facet = self.facets.len().checked_sub(1)?;
         // Two trees that share a place only spoil each other's beginning.
         let memory = std::ptr::from_ref(self).addr() / align_of_val(self) % REMEMBERED;
         let first = LAST.with(|last| last[memory].get() as usize).min(last_facet);
+        let first = self.closest(first, p);
         let best = dispatch!(level(), simd => self.nearer(simd, first, p));
         LAST.with(|last| last[memory].set(best.place as u32));
         Some((&self.facets[best.place], best.point))
     }
 
-    /// The nearest facet, where the one at the place `first` is near.
+    /// The closest point, if it is no farther than the `best` so far.
     #[inline(always)]
-    fn nearer<S: Simd>(&self, simd: S, first: usize, p: Point) -> Closest {
+    fn nearer<S: Simd>(&self, simd: S, mut best: Closest, p: Point) -> Closest {
         let rounding = ROUNDING * (self.extent + p.abs().max_element());
-        let mut best = self.closest(first, p);
         let mut limit = best.limit(rounding);
         let at = Vectors::splat(simd, p);
         let mut waiting = [(0.0, Below::Branch(0)); WAITING];
@@ -215,7 +235,7 @@ impl<F: Facet> NearestFacet<F> {
                 Below::Facet(place) => {
                     let (place, index) = (place as usize, self.facets[place as usize].index);
                     let other = self.closest(place, p);
-                    let is_first = || index < self.facets[best.place].index;
+                    let is_first = || self.facets.get(best.place).is_none_or(|best| index < best.index);
                     if other.distance < best.distance || other.distance == best.distance && is_first() {
                         limit = other.limit(rounding);
                         best = other;
@@ -238,57 +258,69 @@ impl<F: Facet> NearestFacet<F> {
     }
 }
 
-/// Adds a branch of these facets, which are those from `first` on, and all that is below it.
-fn branch<F: Facet>(
-    branches: &mut Vec<Branch>,
-    facets: &mut [Numbered<F>],
-    first: usize,
-    monitor: &dyn Monitor,
-) -> Result<(), Cancelled> {
+/// The middle of a facet's corners, and the facet's place in the order in which they were given.
+#[derive(Clone, Copy)]
+struct Middle {
+    at: Point,
+    index: u32,
+}
+
+/// Puts facets in the order of the tree.
+fn sort(facets: &mut [Middle], monitor: &dyn Monitor) -> Result<(), Cancelled> {
     if facets.len() > MANY {
         monitor.proceed()?;
     }
+    if facets.len() > 1 {
+        let size = Aabb::around(facets.iter().map(|f| &f.at)).size();
+        let axis = (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest });
+        let along = |a: &Middle, b: &Middle| a.at[axis].total_cmp(&b.at[axis]).then(a.index.cmp(&b.index));
+        let [left, _] = halves(0..facets.len());
+        facets.select_nth_unstable_by(left.end, along);
+        let (left, right) = facets.split_at_mut(left.end);
+        sort(left, monitor)?;
+        sort(right, monitor)?;
+    }
+    Ok(())
+}
+
+/// Places in two halves, as facets are sorted.
+fn halves(places: Range<usize>) -> [Range<usize>; 2] {
+    let middle = places.start + places.len() / 2;
+    [places.start..middle, middle..places.end]
+}
+
+/// Adds a branch of the facets at these places, and all that is below it. The box around them.
+fn branch<F: Facet>(
+    branches: &mut Vec<Branch>,
+    facets: &[Numbered<F>],
+    places: Range<usize>,
+    monitor: &dyn Monitor,
+) -> Result<Aabb, Cancelled> {
+    if places.len() > MANY {
+        monitor.proceed()?;
+    }
+    let [left, right] = halves(places);
+    let [[a, b], [c, d]] = [halves(left), halves(right)];
     let place = branches.len();
     branches.push(Branch {
         min: [[f64::INFINITY; LANES]; 3],
         max: [[f64::NEG_INFINITY; LANES]; 3],
         below: [Below::Branch(place as u32); LANES],
     });
-    let mut first = first;
-    for (lane, part) in quarters(facets).into_iter().filter(|part| !part.is_empty()).enumerate() {
-        let bounds = Aabb::around(part.iter().flat_map(|f| f.facet.corners()));
-        let (count, next) = (part.len(), branches.len() as u32);
+    let mut all = Aabb::EMPTY;
+    for (lane, part) in [a, b, c, d].into_iter().filter(|part| !part.is_empty()).enumerate() {
+        let (below, bounds) = match part.len() {
+            1 => (Below::Facet(part.start as u32), Aabb::around(facets[part.start].facet.corners())),
+            _ => (Below::Branch(branches.len() as u32), branch(branches, facets, part, monitor)?),
+        };
         let branch = &mut branches[place];
+        branch.below[lane] = below;
         for axis in 0..3 {
             (branch.min[axis][lane], branch.max[axis][lane]) = (bounds.min[axis], bounds.max[axis]);
         }
-        branch.below[lane] = if count == 1 { Below::Facet(first as u32) } else { Below::Branch(next) };
-        if count > 1 {
-            self::branch(branches, part, first, monitor)?;
-        }
-        first += count;
+        all = all.with(bounds.min).with(bounds.max);
     }
-    Ok(())
-}
-
-/// Facets in four parts of about as many, which lie apart.
-fn quarters<F: Facet>(facets: &mut [Numbered<F>]) -> [&mut [Numbered<F>]; LANES] {
-    let (left, right) = halves(facets);
-    let ((a, b), (c, d)) = (halves(left), halves(right));
-    [a, b, c, d]
-}
-
-/// Facets in two parts, split across the longest side of the box around them.
-fn halves<F: Facet>(facets: &mut [Numbered<F>]) -> (&mut [Numbered<F>], &mut [Numbered<F>]) {
-    let half = facets.len() / 2;
-    if half > 0 {
-        let size = Aabb::around(facets.iter().flat_map(|f| f.facet.corners())).size();
-        let axis = (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest });
-        let middle = |f: &Numbered<F>| f.facet.corners().iter().map(|p| p[axis]).sum::<f64>();
-        facets
-            .select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.index.cmp(&b.index)));
-    }
-    facets.split_at_mut(half)
+    Ok(all)
 }
 
 #[cfg(test)]
@@ -355,7 +387,9 @@ mod tests {
 
     #[test]
     fn no_triangles_have_no_nearest_point() {
-        assert_eq!(NearestTriangle::new([]).closest_point(Point::ZERO), None);
+        let none = NearestTriangle::new([]);
+        assert_eq!(none.closest_point(Point::ZERO), None);
+        assert_eq!(none.nearest_within(Point::ZERO, f64::INFINITY), None);
     }
 
     #[cfg(not(target_arch = "wasm32"))]
@@ -373,6 +407,17 @@ mod tests {
                 let found = NearestTriangle::new(triangles.iter().copied()).closest_point(p).unwrap();
                 let distances = triangles.iter().map(|t| closest_on_triangle(p, *t).distance(p));
                 prop_assert_eq!(found.distance(p), distances.fold(f64::INFINITY, f64::min));
+            }
+
+            #[test]
+            fn what_is_no_farther_is_found(
+                triangles in prop::collection::vec(points::<3>(1.0), 1..60), p in point(2.0),
+            ) {
+                let index = NearestTriangle::new(triangles.iter().copied());
+                let nearest = index.nearest(p);
+                let squared = nearest.unwrap().point.distance_squared(p);
+                prop_assert_eq!(index.nearest_within(p, squared), nearest);
+                prop_assert_eq!(index.nearest_within(p, squared.next_down()), None);
             }
         }
     }

@@ -33,8 +33,8 @@ pub(crate) struct Star {
 /// Four cells at the node. Where there are fewer the first is there again, and counts nothing.
 #[derive(Default)]
 struct Cells {
-    /// The corners [`AROUND`] the node's.
-    corners: [Rows; 6],
+    /// The ends of the spokes.
+    ends: [Rows; 3],
     /// The square of chi's eps.
     eps_squared: Row,
     /// 1, or 0 for a cell that is there again.
@@ -73,6 +73,10 @@ const AROUND: [[u8; 6]; 8] = {
     all
 };
 
+/// The weights of one cell to four.
+const WEIGHTS: [Row; LANES] =
+    [[1.0, 0.0, 0.0, 0.0], [1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, 1.0, 1.0, 1.0]];
+
 /// How a star is with the node in some place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reading {
@@ -94,60 +98,33 @@ impl Star {
 
     /// Looks at the cells around `node`; `eps` in units of each cell's volume.
     pub(crate) fn gather(&mut self, problem: &Problem, node: u32, eps: f64) {
-        self.clear(eps);
+        self.guarded.clear();
         for (cell, k) in problem.star(node) {
-            let nodes = &problem.cells[cell];
-            self.add(k, |corner| problem.points[nodes[corner] as usize], eps * problem.volume[cell]);
             if problem.guarded[cell] && problem.positive[cell] {
                 self.guarded.push((problem.corners(cell), k));
             }
         }
-        self.measure(problem.points[node as usize]);
-    }
-
-    fn clear(&mut self, eps: f64) {
-        self.guarded.clear();
-        self.count = 0;
         self.is_regularised = eps != 0.0;
+        let corner = |place: u32, corner: u8| {
+            problem.points[problem.cells[place as usize / 8][usize::from(corner)] as usize]
+        };
+        let eps = |place: u32| eps * problem.volume[place as usize / 8];
+        self.take(problem.points[node as usize], problem.uses(node), eps, corner);
     }
 
-    /// Adds a cell that has the node at its corner `k`.
+    /// Takes the cells of these `uses` of the node, which is at `v`; each is eight times a cell, and the node's corner.
     #[inline]
-    fn add(&mut self, k: usize, at: impl Fn(usize) -> Point, eps: f64) {
-        let (place, lane) = (self.count / LANES, self.count % LANES);
-        if place == self.cells.len() {
-            self.cells.push(Cells::default());
+    fn take(&mut self, v: Point, uses: &[u32], eps: impl Fn(u32) -> f64, corner: impl Fn(u32, u8) -> Point) {
+        self.count = uses.len();
+        if self.cells.len() < uses.len().div_ceil(LANES) {
+            self.cells.resize_with(uses.len().div_ceil(LANES), Cells::default);
         }
-        let cells = &mut self.cells[place];
-        for (rows, &corner) in cells.corners.iter_mut().zip(&AROUND[k]) {
-            let corner = at(usize::from(corner));
-            (rows[0][lane], rows[1][lane], rows[2][lane]) = (corner.x, corner.y, corner.z);
-        }
-        cells.eps_squared[lane] = eps * eps;
-        cells.weight[lane] = 1.0;
-        self.count += 1;
-    }
-
-    /// The cells that were added. What is left over of the last four is the first of these, without weight.
-    fn fill(&mut self) -> &mut [Cells] {
-        let used = self.count.div_ceil(LANES);
-        if let Some(last) = self.cells[..used].last_mut() {
-            for lane in (self.count - 1) % LANES + 1..LANES {
-                last.corners.as_flattened_mut().iter_mut().for_each(|row| row[lane] = row[0]);
-                last.eps_squared[lane] = last.eps_squared[0];
-                last.weight[lane] = 0.0;
-            }
-        }
-        &mut self.cells[..used]
-    }
-
-    /// Works out what does not change with the node, which is at `v`.
-    fn measure(&mut self, v: Point) {
-        let length = dispatch!(self.level, simd => measured(simd, self.fill(), v));
+        let cells = &mut self.cells;
+        let length = dispatch!(self.level, simd => taken(simd, cells, v, uses, &eps, &corner));
         self.size = length / (3 * self.count).max(1) as f64;
     }
 
-    /// The cells that were added.
+    /// The cells that were taken.
     fn used(&self) -> &[Cells] {
         &self.cells[..self.count.div_ceil(LANES)]
     }
@@ -184,7 +161,7 @@ struct Placed<S: Simd> {
 impl<S: Simd> Placed<S> {
     #[inline(always)]
     fn new(simd: S, cells: &Cells, v: Vectors<S>, is_regularised: bool) -> Self {
-        let arm = |i: usize| v - Vectors::load(simd, &cells.corners[i]);
+        let arm = |i: usize| v - Vectors::load(simd, &cells.ends[i]);
         let arms = [arm(0), arm(1), arm(2)];
         Self {
             arms,
@@ -230,16 +207,40 @@ impl<S: Simd> Placed<S> {
     }
 }
 
+/// Fills in cells, and all that does not change with the node. The sum of the spokes' lengths.
 #[inline(always)]
-fn measured<S: Simd>(simd: S, all: &mut [Cells], v: Point) -> f64 {
+fn taken<S: Simd>(
+    simd: S,
+    all: &mut [Cells],
+    v: Point,
+    uses: &[u32],
+    eps: &impl Fn(u32) -> f64,
+    corner: &impl Fn(u32, u8) -> Point,
+) -> f64 {
     let v = Vectors::splat(simd, v);
     let mut lengths = f64x4::splat(simd, 0.0);
-    for cells in all {
-        let corner = |i: usize| Vectors::load(simd, &cells.corners[i]);
-        let ends = [corner(0), corner(1), corner(2)];
-        let across = [corner(3), corner(4), corner(5)];
+    for (cells, four) in all.iter_mut().zip(uses.chunks(LANES)) {
+        // What is left over of the last four is the first of these, without weight.
+        let lane = |k: usize| four.get(k).copied().unwrap_or(four[0]);
+        let [a, b, c, d] = [lane(0), lane(1), lane(2), lane(3)];
+        let around = [
+            &AROUND[a as usize % 8],
+            &AROUND[b as usize % 8],
+            &AROUND[c as usize % 8],
+            &AROUND[d as usize % 8],
+        ];
+        let mut corners = [v; 6];
+        for (i, at) in corners.iter_mut().enumerate() {
+            let [a, b] = [corner(a, around[0][i]), corner(b, around[1][i])];
+            *at = Vectors::of(simd, [a, b, corner(c, around[2][i]), corner(d, around[3][i])]);
+        }
+        let [ends, across] = [[corners[0], corners[1], corners[2]], [corners[3], corners[4], corners[5]]];
+        let [eps_a, eps_b, eps_c, eps_d] = [eps(a), eps(b), eps(c), eps(d)];
+        cells.eps_squared = [eps_a * eps_a, eps_b * eps_b, eps_c * eps_c, eps_d * eps_d];
+        cells.weight = WEIGHTS[four.len() - 1];
         let weight = f64x4::load_array_ref(simd, &cells.weight);
         for i in 0..3 {
+            cells.ends[i] = ends[i].store();
             lengths += (v - ends[i]).length_squared().sqrt() * weight;
             let (b, c) = (across[(i + 1) % 3] - ends[i], across[(i + 2) % 3] - ends[i]);
             let (b_square, c_square) = (b.length_squared(), c.length_squared());
@@ -376,12 +377,10 @@ mod tests {
         let left = CORNERS.map(|c| bend(Point::from(c.map(f64::from)) - Point::X));
         let mut star = Star::with(level);
         // What is left of an earlier star with more cells is none of this.
-        star.clear(1.0);
-        (0..5).for_each(|_| star.add(0, |_| Point::ZERO, 1.0));
-        star.clear(eps);
-        star.add(0, |k| right[k], eps);
-        star.add(1, |k| left[k], eps);
-        star.measure(right[0]);
+        star.take(Point::ONE, &[0, 0, 0, 0, 0], |_| 1.0, |_, _| Point::ZERO);
+        star.is_regularised = eps != 0.0;
+        let corner = |place: u32, k: u8| [right, left][place as usize / 8][usize::from(k)];
+        star.take(right[0], &[0, 8 + 1], |_| eps, corner);
         (star, [right, left], [0, 1])
     }
 

@@ -54,6 +54,9 @@ pub struct Correspondence {
 impl Correspondence {
     /// The curve that the edge between two nodes lies on.
     pub fn curve_of(&self, a: NodeId, b: NodeId) -> Option<CurveId> {
+        if [a, b].iter().any(|n| self.anchors[n.index()].freedom() > 1) {
+            return None;
+        }
         let ends = [a.min(b), a.max(b)];
         let at = self.edges.binary_search_by_key(&ends, |&(ends, _)| ends).ok()?;
         Some(self.edges[at].1)

@@ -34,8 +34,10 @@ pub(super) struct Survey<'a> {
     pub(super) solid: &'a SolidModel,
     /// The mean length of the edges of the mesh when it was first looked at.
     pub(super) edge: f64,
-    /// The samples of the solid.
+    /// The samples of the solid, and the half of a quad that is nearest to each: twice the quad, and which half; behind it
+    /// how far that is, squared.
     samples: Vec<Point>,
+    nearest: Vec<(u32, f64)>,
     /// Where the corners of the quads are, and how far these and the middles of their halves are from the solid.
     quads: Vec<[Point; 4]>,
     of_mesh: Vec<f64>,
@@ -55,8 +57,9 @@ impl<'a> Survey<'a> {
     ) -> Result<Self, Cancelled> {
         let edge = mean_edge(&quads(mesh, faces));
         let samples = samples(edge, solid, monitor)?;
-        let (quads, of_mesh, of_solid, distances) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { solid, edge, samples, quads, of_mesh, of_solid, distances })
+        let (nearest, quads, of_mesh) = (Vec::new(), Vec::new(), Vec::new());
+        let (of_solid, distances) = (Vec::new(), Vec::new());
+        Ok(Self { solid, edge, samples, nearest, quads, of_mesh, of_solid, distances })
     }
 
     /// Looks at all faces of the mesh, which are as many as before. What was seen of those that are where they were holds.
@@ -67,31 +70,26 @@ impl<'a> Survey<'a> {
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
         let (before, quads) = (std::mem::take(&mut self.quads), quads(mesh, faces));
+        let has_moved = parallel::collect(quads.len(), |q| before.get(q) != Some(&quads[q]));
         let of_mesh = std::mem::take(&mut self.of_mesh);
         for start in (0..quads.len()).step_by(BATCH) {
             monitor.proceed()?;
             parallel::extend(&mut self.of_mesh, BATCH.min(quads.len() - start), |k| {
                 let quad = &quads[start + k];
-                if before.get(start + k) == Some(quad) {
+                if !has_moved[start + k] {
                     return of_mesh[start + k];
                 }
                 let apart = |p: Point| self.solid.nearest(p).distance;
                 quad.iter().copied().chain(middles(quad)).map(apart).fold(0.0, f64::max)
             });
         }
-        let nearest = NearestTriangle::within(quads.iter().flat_map(halves), monitor)?;
+        self.nearest = self.nearest_halves(&quads, &has_moved, monitor)?;
         let mut of_quads = vec![Vec::new(); quads.len()];
-        for batch in self.samples.chunks(BATCH) {
-            monitor.proceed()?;
-            let found = parallel::collect(batch.len(), |k| nearest.nearest(batch[k]));
-            for (&p, found) in batch.iter().zip(found) {
-                if let Some(found) = found {
-                    let samples: &mut Vec<(f64, Point)> = &mut of_quads[found.facet / 2];
-                    samples.push((found.point.distance(p), p));
-                    if samples.len() == 2 * SAMPLES {
-                        keep_farthest(samples);
-                    }
-                }
+        for (&p, &(half, squared)) in self.samples.iter().zip(&self.nearest) {
+            let samples: &mut Vec<(f64, Point)> = &mut of_quads[half as usize / 2];
+            samples.push((squared.sqrt(), p));
+            if samples.len() == 2 * SAMPLES {
+                keep_farthest(samples);
             }
         }
         self.distances.clone_from(&self.of_mesh);
@@ -108,6 +106,32 @@ impl<'a> Survey<'a> {
         }
         self.quads = quads;
         Ok(())
+    }
+
+    /// What is nearest to each sample. Where that has not moved, only what has can be nearer.
+    fn nearest_halves(
+        &self,
+        quads: &[[Point; 4]],
+        has_moved: &[bool],
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<(u32, f64)>, Cancelled> {
+        let moved = parallel::filter(quads.len(), |q| has_moved[q] && !self.nearest.is_empty());
+        let of_moved =
+            NearestTriangle::within(moved.iter().flat_map(|&q| halves(&quads[q as usize])), monitor)?;
+        let of_all = NearestTriangle::within(quads.iter().flat_map(halves), monitor)?;
+        parallel::try_collect(self.samples.len(), monitor, |k| {
+            let p = self.samples[k];
+            let known = self.nearest.get(k).filter(|(half, _)| !has_moved[*half as usize / 2]);
+            let Some(&(half, squared)) = known else {
+                let found = of_all.nearest(p).expect("a mesh has a boundary");
+                return (found.facet as u32, found.point.distance_squared(p));
+            };
+            let nearer = of_moved.nearest_within(p, squared).map(|found| {
+                let half = 2 * moved[found.facet / 2] + found.facet as u32 % 2;
+                (half, found.point.distance_squared(p))
+            });
+            nearer.filter(|&(other, nearer)| nearer < squared || other < half).unwrap_or((half, squared))
+        })
     }
 }
 

@@ -226,9 +226,6 @@ fn fitted(
         let stuck = holds.stuck();
         sweeps += unlock(&mut problem, &mut holds, &chains, &[], &part(from, from + UNLOCKING))?.sweeps;
         holds.weight = 0.0;
-        if from > UNLOCK[0] && holds.stuck() >= stuck {
-            break;
-        }
         sweeps += smooth(&mut problem, &holds, &options.smoothing, &part(from + UNLOCKING, from + ROUND))?;
         if holds.stuck() == 0 || holds.stuck() >= stuck {
             break;
