@@ -70,7 +70,7 @@ impl<'a> Survey<'a> {
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
         let (before, quads) = (std::mem::take(&mut self.quads), quads(mesh, faces));
-        let has_moved = parallel::collect(quads.len(), |q| before.get(q) != Some(&quads[q]));
+        let has_moved: Vec<bool> = (0..quads.len()).map(|q| before.get(q) != Some(&quads[q])).collect();
         let of_mesh = std::mem::take(&mut self.of_mesh);
         for start in (0..quads.len()).step_by(BATCH) {
             monitor.proceed()?;
@@ -115,7 +115,9 @@ impl<'a> Survey<'a> {
         has_moved: &[bool],
         monitor: &dyn Monitor,
     ) -> Result<Vec<(u32, f64)>, Cancelled> {
-        let moved = parallel::filter(quads.len(), |q| has_moved[q] && !self.nearest.is_empty());
+        let is_known = !self.nearest.is_empty();
+        let moved: Vec<u32> =
+            (0..quads.len() as u32).filter(|&q| is_known && has_moved[q as usize]).collect();
         let of_moved =
             NearestTriangle::within(moved.iter().flat_map(|&q| halves(&quads[q as usize])), monitor)?;
         let of_all = NearestTriangle::within(quads.iter().flat_map(halves), monitor)?;

@@ -3,6 +3,7 @@
 use super::stage::StageMesh;
 use crate::mesh::NodeId;
 use crate::mesh::topology::Side;
+use crate::{Cancelled, Monitor};
 
 /// Some hexes of a mesh.
 pub(super) struct Part {
@@ -14,15 +15,20 @@ pub(super) struct Part {
 
 impl Part {
     /// The part of these hexes, which ascend, of a mesh before its first stage.
-    pub(super) fn of(whole: &StageMesh, hexes: Vec<u32>) -> Self {
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    pub(super) fn of(whole: &StageMesh, hexes: Vec<u32>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let nodes_of = |&hex: &u32| whole.hexes[hex as usize];
         let mut nodes: Vec<NodeId> = hexes.iter().flat_map(nodes_of).collect();
         nodes.sort_unstable();
         nodes.dedup();
+        monitor.proceed()?;
         let local = |node: NodeId| NodeId::new(nodes.binary_search(&node).expect("a node of the part"));
         let positions = nodes.iter().map(|n| whole.positions[n.index()]).collect();
         let mut mesh =
             StageMesh::of_input(positions, hexes.iter().map(|hex| nodes_of(hex).map(local)).collect());
+        monitor.proceed()?;
         for (k, &hex) in (0..).zip(&hexes) {
             let first = whole.labels.partition_point(|&(side, _)| side < 6 * hex);
             let of_hex = whole.labels[first..].iter().take_while(|&&(side, _)| side < 6 * (hex + 1));
@@ -31,7 +37,7 @@ impl Part {
         if !whole.materials.is_empty() {
             mesh.materials = hexes.iter().map(|&hex| whole.materials[hex as usize]).collect();
         }
-        Self { mesh, hexes }
+        Ok(Self { mesh, hexes })
     }
 
     /// What is so for each hex of the whole mesh, for those of the part.
@@ -39,9 +45,9 @@ impl Part {
         self.hexes.iter().map(|&hex| of_whole[hex as usize]).collect()
     }
 
-    /// Hexes of the part, as those of the whole mesh that they are.
-    pub(super) fn in_whole(&self, hexes: &[u32]) -> Vec<u32> {
-        hexes.iter().map(|&hex| self.hexes[hex as usize]).collect()
+    /// Gives hexes of the part their numbers in the whole mesh.
+    pub(super) fn number_as_whole(&self, hexes: &mut [u32]) {
+        hexes.iter_mut().for_each(|hex| *hex = self.hexes[*hex as usize]);
     }
 }
 
@@ -79,15 +85,16 @@ mod tests {
             let mut is_refined = vec![false; whole.hexes.len()];
             refined.iter().for_each(|&hex| is_refined[hex as usize] = true);
             let around = Grouping::of(whole.positions.len(), &whole.hexes, &Silent).unwrap().around(&refined);
-            let part = Part::of(&whole, around);
+            let part = Part::of(&whole, around, &Silent).unwrap();
             let told = |joined: Joining| match joined {
                 Joining::Possible => ("possible", Vec::new()),
                 Joining::Conflict(hexes) => ("conflict", hexes),
                 Joining::Ungrouped(hexes) => ("ungrouped", hexes),
             };
             let expected = told(joining(&whole, &is_refined, &Silent).unwrap());
-            let (how, hexes) = told(joining(&part.mesh, &part.flags(&is_refined), &Silent).unwrap());
-            prop_assert_eq!((how, part.in_whole(&hexes)), expected);
+            let mut found = told(joining(&part.mesh, &part.flags(&is_refined), &Silent).unwrap());
+            part.number_as_whole(&mut found.1);
+            prop_assert_eq!(found, expected);
         }
     }
 }

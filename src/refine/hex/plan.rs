@@ -22,9 +22,12 @@ use super::stage::{Joining, StageError, StageMesh, joining};
 use super::trees::{TreeLevel, Trees};
 use crate::geometry::Point;
 use crate::mesh::HexMesh;
-use crate::{Monitor, Stage};
+use crate::{Cancelled, Monitor, Stage};
 
 const CLOSE: Stage = Stage("close");
+
+/// A part of a mesh is looked at alone if it has no more than the mesh's hexes over this.
+const FEW: usize = 8;
 
 /// Why conflicts are refined.
 pub(super) const INSEPARABLE: &str = "where the interface cannot be separated";
@@ -272,14 +275,7 @@ impl<'a> HexPlan<'a> {
                     self.refine_unasked(trees, &rest, monitor)?;
                 }
             }
-            // All that is asked of the mesh now is asked of hexes at nodes of the refined ones.
-            let base = trees.level(0);
-            let part = Part::of(&mesh, grouping.around(base.refined));
-            joined = match joining(&part.mesh, &part.flags(base.is_refined), monitor)? {
-                Joining::Possible => Joining::Possible,
-                Joining::Conflict(more) => Joining::Conflict(part.in_whole(&more)),
-                Joining::Ungrouped(hexes) => Joining::Ungrouped(part.in_whole(&hexes)),
-            };
+            joined = joined_around(&mesh, &grouping, trees.level(0), monitor)?;
         }
     }
 
@@ -363,6 +359,25 @@ impl<'a> HexPlan<'a> {
         let same = before.refined.iter().zip(after).take_while(|(before, after)| before.len() == after.len());
         Ok(More { elements: more.len(), coarsest: same.count().min(number) })
     }
+}
+
+/// As [`joining`]. Where few hexes are at nodes of the refined ones it looks at these alone, which tell all.
+fn joined_around(
+    mesh: &StageMesh,
+    grouping: &Grouping<'_>,
+    base: TreeLevel,
+    monitor: &dyn Monitor,
+) -> Result<Joining, Cancelled> {
+    let around = grouping.around(base.refined);
+    if around.len() > mesh.hexes.len() / FEW {
+        return joining(mesh, base.is_refined, monitor);
+    }
+    let part = Part::of(mesh, around, monitor)?;
+    let mut joined = joining(&part.mesh, &part.flags(base.is_refined), monitor)?;
+    if let Joining::Conflict(hexes) | Joining::Ungrouped(hexes) = &mut joined {
+        part.number_as_whole(hexes);
+    }
+    Ok(joined)
 }
 
 /// The hexes of level 0 in blocks that are refined in part, and are not refined yet.
