@@ -1,6 +1,7 @@
 //! Axis-aligned boxes.
 
 use super::Point;
+use super::lanes::Number;
 
 /// An axis-aligned box; empty while `min > max` on some axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +56,9 @@ impl Aabb {
 
     /// The square of the distance from `p` to the box; 0 within.
     pub fn distance_squared(&self, p: Point) -> f64 {
-        (self.min - p).max(p - self.max).max(Point::ZERO).length_squared()
+        let (below, above) = (self.min - p, p - self.max);
+        let gap = |axis: usize| below[axis].greater(above[axis]).greater(0.0);
+        Point::new(gap(0), gap(1), gap(2)).length_squared()
     }
 
     /// True if `other` holds all of this closed box.

@@ -1,6 +1,7 @@
 //! The closest points of segments and triangles, as weights of their ends.
 
 use super::Point;
+use super::lanes::Number;
 
 /// Twice a triangle's area below this share of the product of two of its edges: too thin for a normal, its
 /// edges stand for it. The error is that share of an edge, far below what coordinates can tell.
@@ -28,7 +29,7 @@ pub fn triangle_weights(p: Point, [a, b, c]: [Point; 3]) -> [f64; 3] {
     let wa = area - wb - wc;
     if !needle && wa >= 0.0 && wb >= 0.0 && wc >= 0.0 {
         let (wb, wc) = (wb / area, wc / area);
-        return [(1.0 - wb - wc).max(0.0), wb, wc];
+        return [(1.0 - wb - wc).greater(0.0), wb, wc];
     }
     let mut best = (f64::INFINITY, [1.0, 0.0, 0.0]);
     let mut offer = |beyond: bool, ends: [Point; 2], weights: fn([f64; 2]) -> [f64; 3]| {

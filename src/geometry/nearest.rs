@@ -10,7 +10,7 @@ use std::ops::Range;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch, f64x4};
 
-use super::lanes::{LANES, Row, Rows, Vector, Vectors, level};
+use super::lanes::{LANES, Number, Row, Rows, Vector, Vectors, level};
 use super::{Aabb, Point, closest_on_triangle};
 use crate::{Cancelled, Monitor, Silent};
 
@@ -98,7 +98,7 @@ impl Branch {
         let (min, max) = (Vectors::load(simd, &self.min), Vectors::load(simd, &self.max));
         let zero = f64x4::splat(simd, 0.0);
         let (below, above) = (min - p, p - max);
-        let outside = |below: f64x4<S>, above: f64x4<S>| below.max(above).max(zero);
+        let outside = |below: f64x4<S>, above: f64x4<S>| below.greater(above).greater(zero);
         let gap = Vectors {
             x: outside(below.x, above.x),
             y: outside(below.y, above.y),

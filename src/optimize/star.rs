@@ -11,7 +11,7 @@ use super::energy::{Corners, Energy, Expansion, Weights};
 use super::problem::Problem;
 use super::symmetric::{Matrices, Symmetric};
 use crate::geometry::Point;
-use crate::geometry::lanes::{LANES, Row, Rows, Vector, Vectors, level, sum};
+use crate::geometry::lanes::{LANES, Number, Row, Rows, Vector, Vectors, level, sum};
 use crate::mesh::numbering::hex::{CORNER_AT, NEIGHBOURS};
 use crate::mesh::quality::{Certainty, is_positive};
 
@@ -105,9 +105,7 @@ impl Star {
             }
         }
         self.is_regularised = eps != 0.0;
-        let corner = |place: u32, corner: u8| {
-            problem.points[problem.cells[place as usize / 8][usize::from(corner)] as usize]
-        };
+        let corner = |place: u32, corner: u8| problem.corner(place as usize / 8, corner.into());
         let eps = |place: u32| eps * problem.volume[place as usize / 8];
         self.take(problem.points[node as usize], problem.uses(node), eps, corner);
     }
@@ -229,18 +227,17 @@ fn taken<S: Simd>(
             &AROUND[c as usize % 8],
             &AROUND[d as usize % 8],
         ];
-        let mut corners = [v; 6];
-        for (i, at) in corners.iter_mut().enumerate() {
+        let at = |i: usize| {
             let [a, b] = [corner(a, around[0][i]), corner(b, around[1][i])];
-            *at = Vectors::of(simd, [a, b, corner(c, around[2][i]), corner(d, around[3][i])]);
-        }
-        let [ends, across] = [[corners[0], corners[1], corners[2]], [corners[3], corners[4], corners[5]]];
+            Vectors::of(simd, [a, b, corner(c, around[2][i]), corner(d, around[3][i])])
+        };
+        let (ends, across) = ([at(0), at(1), at(2)], [at(3), at(4), at(5)]);
         let [eps_a, eps_b, eps_c, eps_d] = [eps(a), eps(b), eps(c), eps(d)];
         cells.eps_squared = [eps_a * eps_a, eps_b * eps_b, eps_c * eps_c, eps_d * eps_d];
         cells.weight = WEIGHTS[four.len() - 1];
         let weight = f64x4::load_array_ref(simd, &cells.weight);
         for i in 0..3 {
-            cells.ends[i] = ends[i].store();
+            ends[i].store_in(&mut cells.ends[i]);
             lengths += (v - ends[i]).length_squared().sqrt() * weight;
             let (b, c) = (across[(i + 1) % 3] - ends[i], across[(i + 2) % 3] - ends[i]);
             let (b_square, c_square) = (b.length_squared(), c.length_squared());
@@ -274,7 +271,7 @@ impl<S: Simd> Sums<S> {
     fn add(&mut self, energy: &Energy<S>, weight: f64x4<S>) {
         self.are_finite &= energy.is_finite;
         self.energy += (energy.shape + energy.angles) * weight;
-        self.worst = self.worst.max(energy.angles_squared);
+        self.worst = self.worst.greater(energy.angles_squared);
     }
 
     /// What was read, if the energy is finite.
@@ -282,7 +279,7 @@ impl<S: Simd> Sums<S> {
     fn reading(&self) -> Option<Reading> {
         let energy = sum(self.energy);
         let [a, b, c, d] = self.worst.to_array();
-        let worst = a.max(b).max(c.max(d));
+        let worst = a.greater(b).greater(c.greater(d));
         (self.are_finite.all_true() && energy.is_finite()).then_some(Reading { energy, worst })
     }
 }
