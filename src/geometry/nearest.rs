@@ -148,18 +148,16 @@ impl<F: Facet> NearestFacet<F> {
     /// # Panics
     /// As [`new`](Self::new).
     pub fn within(facets: impl IntoIterator<Item = F>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let mut facets: Vec<Option<F>> = facets.into_iter().map(Some).collect();
-        let middle = |facet: &F| facet.corners().iter().sum::<Point>() / facet.corners().len() as f64;
-        let mut order: Vec<Middle> = (0..u32::try_from(facets.len()).expect("no more than 2^32 facets"))
-            .zip(facets.iter().flatten())
-            .map(|(index, facet)| Middle { index, at: middle(facet) })
+        let mut facets: Vec<Numbered<F>> = facets
+            .into_iter()
+            .enumerate()
+            .map(|(k, facet)| Numbered { facet, index: u32::try_from(k).expect("no more than 2^32 facets") })
             .collect();
+        let middle = |facet: &F| facet.corners().iter().sum::<Point>() / facet.corners().len() as f64;
+        let mut order: Vec<Middle> =
+            facets.iter().map(|of| Middle { index: of.index, at: middle(&of.facet) }).collect();
         sort(&mut order, monitor)?;
-        let taken = order.iter().map(|&Middle { index, .. }| Numbered {
-            facet: facets[index as usize].take().expect("each is there once"),
-            index,
-        });
-        let facets: Vec<Numbered<F>> = taken.collect();
+        rearrange(&mut facets, order);
         let mut all = Self { branches: Vec::with_capacity(facets.len() / 2), facets, extent: 0.0 };
         if !all.facets.is_empty() {
             let bounds = branch(&mut all.branches, &all.facets, 0..all.facets.len(), monitor)?;
@@ -281,6 +279,22 @@ fn sort(facets: &mut [Middle], monitor: &dyn Monitor) -> Result<(), Cancelled> {
         sort(right, monitor)?;
     }
     Ok(())
+}
+
+/// Puts at each place the facet whose place is told, without a second array of them: around one circle of places after the
+/// other.
+fn rearrange<F>(facets: &mut [F], mut from: Vec<Middle>) {
+    for first in 0..from.len() {
+        let mut place = first;
+        loop {
+            let next = std::mem::replace(&mut from[place].index, place as u32) as usize;
+            if next == first || next == place {
+                break;
+            }
+            facets.swap(place, next);
+            place = next;
+        }
+    }
 }
 
 /// Places in two halves, as facets are sorted.

@@ -6,6 +6,7 @@
 use std::collections::HashSet;
 
 use crate::geometry::{Aabb, NearestTriangle, Point, closest_on_triangle};
+use crate::mesh::topology::Bins;
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::Problem;
 use crate::solid::{SolidModel, SurfaceId};
@@ -41,8 +42,8 @@ pub(super) struct Survey<'a> {
     /// Where the corners of the quads are, and how far these and the middles of their halves are from the solid.
     quads: Vec<[Point; 4]>,
     of_mesh: Vec<f64>,
-    /// The samples of the solid at each quad.
-    of_solid: Vec<Vec<Point>>,
+    /// The samples at each quad, the farthest first.
+    of_solid: Bins,
     /// The greatest distance at each quad, either way.
     pub(super) distances: Vec<f64>,
 }
@@ -58,7 +59,7 @@ impl<'a> Survey<'a> {
         let edge = mean_edge(&quads(mesh, faces));
         let samples = samples(edge, solid, monitor)?;
         let (nearest, quads, of_mesh) = (Vec::new(), Vec::new(), Vec::new());
-        let (of_solid, distances) = (Vec::new(), Vec::new());
+        let (of_solid, distances) = (Bins::default(), Vec::new());
         Ok(Self { solid, edge, samples, nearest, quads, of_mesh, of_solid, distances })
     }
 
@@ -84,28 +85,27 @@ impl<'a> Survey<'a> {
             });
         }
         self.nearest = self.nearest_halves(&quads, &has_moved, monitor)?;
-        let mut of_quads = vec![Vec::new(); quads.len()];
-        for (&p, &(half, squared)) in self.samples.iter().zip(&self.nearest) {
-            let samples: &mut Vec<(f64, Point)> = &mut of_quads[half as usize / 2];
-            samples.push((squared.sqrt(), p));
-            if samples.len() == 2 * SAMPLES {
-                keep_farthest(samples);
-            }
-        }
-        self.distances.clone_from(&self.of_mesh);
-        self.of_solid.clear();
-        for (quad, mut samples) in of_quads.into_iter().enumerate() {
+        let quad_of = |k: usize| self.nearest[k].0 as usize / 2;
+        self.of_solid = Bins::monitored(quads.len(), self.samples.len(), quad_of, monitor)?;
+        let distance = |k: u32| self.nearest[k as usize].1.sqrt();
+        self.distances.clear();
+        for (quad, &of_mesh) in self.of_mesh.iter().enumerate() {
             if quad.is_multiple_of(BATCH) {
                 monitor.proceed()?;
             }
-            keep_farthest(&mut samples);
-            if let Some((distance, _)) = samples.first() {
-                self.distances[quad] = self.distances[quad].max(*distance);
-            }
-            self.of_solid.push(samples.iter().map(|(_, p)| *p).collect());
+            // Of those that are equally far the first.
+            let samples = self.of_solid.at_mut(quad);
+            samples.sort_unstable_by(|&a, &b| distance(b).total_cmp(&distance(a)).then(a.cmp(&b)));
+            let farthest = samples.first().map_or(0.0, |&k| distance(k));
+            self.distances.push(of_mesh.max(farthest));
         }
         self.quads = quads;
         Ok(())
+    }
+
+    /// The samples of the solid that count at a quad.
+    fn at(&self, quad: usize) -> Vec<Point> {
+        self.of_solid.at(quad).iter().take(SAMPLES).map(|&k| self.samples[k as usize]).collect()
     }
 
     /// What is nearest to each sample. Where that has not moved, only what has can be nearer.
@@ -135,13 +135,6 @@ impl<'a> Survey<'a> {
             nearer.filter(|&(other, nearer)| nearer < squared || other < half).unwrap_or((half, squared))
         })
     }
-}
-
-/// Of samples, each behind its distance, keeps those that count, the farthest first.
-fn keep_farthest(samples: &mut Vec<(f64, Point)>) {
-    // Stable: of those that are equally far the first.
-    samples.sort_by(|a, b| b.0.total_cmp(&a.0));
-    samples.truncate(SAMPLES);
 }
 
 /// Samples of a solid for a mesh with edges of this mean length: its vertices, the middles of its triangles, and points of
@@ -246,9 +239,7 @@ impl<'a> Apart<'a> {
         (0u32..).zip(&problem.nodes).for_each(|(k, n)| local[n.index()] = Some(k));
         let mut around = vec![Vec::new(); problem.movable()];
         let (mut quads, mut samples, mut distances) = (Vec::new(), Vec::new(), Vec::new());
-        for ((quad, _), (of_solid, &distance)) in
-            faces.iter().zip(survey.of_solid.iter().zip(&survey.distances))
-        {
+        for (k, (quad, _)) in faces.iter().enumerate() {
             let [Some(a), Some(b), Some(c), Some(d)] = quad.map(|n| local.get(n.index()).copied().flatten())
             else {
                 continue;
@@ -256,8 +247,8 @@ impl<'a> Apart<'a> {
             let movable = [a, b, c, d].into_iter().filter(|&n| (n as usize) < problem.movable());
             movable.for_each(|n| around[n as usize].push(quads.len() as u32));
             quads.push([a, b, c, d]);
-            samples.push(of_solid.clone());
-            distances.push(distance);
+            samples.push(survey.at(k));
+            distances.push(survey.distances[k]);
         }
         Self { solid: survey.solid, quads, samples, distances, around }
     }

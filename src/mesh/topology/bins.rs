@@ -50,6 +50,12 @@ impl Bins {
         &self.places[self.range(b)]
     }
 
+    /// The same, to be put in another order.
+    pub fn at_mut(&mut self, b: usize) -> &mut [u32] {
+        let range = self.range(b);
+        &mut self.places[range]
+    }
+
     /// Where the places of bin `b` stand among those of all bins.
     pub fn range(&self, b: usize) -> std::ops::Range<usize> {
         self.offsets[b] as usize..self.offsets[b + 1] as usize
