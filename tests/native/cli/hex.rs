@@ -28,6 +28,20 @@ fn a_cube_is_filled_with_cubes_and_keeps_its_surfaces_as_groups() {
     assert_eq!(json(&folder, "c.json")["mesh"]["groupedFaces"], 96);
 }
 
+/// With all that the process holds besides. Memory that was freed has to go back to the system for that.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_solid_takes_less_than_a_kilobyte_a_hex() {
+    let folder = folder_holding("cube.obj", CUBE);
+    let edge_length = (2.0 / 36.0).to_string();
+    let arguments = ["--threads", "1", "--report", "r.json"];
+    succeed(&folder, &[&["hex", "cube.obj", "-o", "cube.vtu", "-e", &edge_length], &arguments[..]].concat());
+    let report = json(&folder, "r.json");
+    assert_eq!(report["mesh"]["hexes"], 36 * 36 * 36);
+    let peak = report["peakMemoryBytes"].as_u64().unwrap();
+    assert!(peak < 1000 * 36 * 36 * 36, "{peak}");
+}
+
 /// What the solid in a file is refused with; nothing is written.
 fn refused(surface: &str, edge_length: &str) -> String {
     let folder = folder_holding("part.obj", surface);

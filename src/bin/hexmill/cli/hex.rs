@@ -12,12 +12,14 @@ use super::failure::Failure;
 use super::files::{format_for_hexes, format_for_second_order, load};
 use super::making::Made;
 use super::mesh_report::{Counts, quality_table};
+use super::pages::give_back_soon;
 use super::progress::Progress;
 use super::report::Report;
 use super::words::counted;
 
 /// Reads a closed surface, fills it with hexes, writes and reports.
 pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
+    give_back_soon();
     let format = match args.second_order {
         Some(_) => format_for_second_order(&args.making.output)?,
         None => format_for_hexes(&args.making.output)?,

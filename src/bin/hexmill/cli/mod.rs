@@ -10,6 +10,7 @@ mod hex;
 mod making;
 mod memory;
 mod mesh_report;
+mod pages;
 mod plan;
 mod progress;
 mod quad;
