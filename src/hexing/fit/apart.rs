@@ -115,15 +115,18 @@ impl<'a> Survey<'a> {
         has_moved: &[bool],
         monitor: &dyn Monitor,
     ) -> Result<Vec<(u32, f64)>, Cancelled> {
-        let is_known = !self.nearest.is_empty();
-        let moved: Vec<u32> =
-            (0..quads.len() as u32).filter(|&q| is_known && has_moved[q as usize]).collect();
+        let mut moved: Vec<u32> = (0..quads.len() as u32).filter(|&q| has_moved[q as usize]).collect();
+        // Where most has moved a tree of that alone is hardly smaller than one of all.
+        let is_known = !self.nearest.is_empty() && 2 * moved.len() <= quads.len();
+        if !is_known {
+            moved.clear();
+        }
         let of_moved =
             NearestTriangle::within(moved.iter().flat_map(|&q| halves(&quads[q as usize])), monitor)?;
         let of_all = NearestTriangle::within(quads.iter().flat_map(halves), monitor)?;
         parallel::try_collect(self.samples.len(), monitor, |k| {
             let p = self.samples[k];
-            let known = self.nearest.get(k).filter(|(half, _)| !has_moved[*half as usize / 2]);
+            let known = self.nearest.get(k).filter(|(half, _)| is_known && !has_moved[*half as usize / 2]);
             let Some(&(half, squared)) = known else {
                 let found = of_all.nearest(p).expect("a mesh has a boundary");
                 return (found.facet as u32, found.point.distance_squared(p));
