@@ -187,3 +187,36 @@ fn meet(
     }
     Ok(())
 }
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::super::graph::Segment;
+    use super::*;
+    use crate::Silent;
+
+    /// Samples of two rings around one point that are so far from each other: 18 coarse segments each at first, if they are
+    /// near.
+    fn rings(apart: f64) -> Result<Samples, FaceError> {
+        const POINTS: u32 = 4000;
+        let mut graph = Graph::default();
+        for (radius, from) in [(3.0, 0.0), (3.0 + apart, 0.1)] {
+            let first = graph.points.len() as u32;
+            for k in 0..POINTS {
+                let (y, x) = libm::sincos(from + std::f64::consts::TAU * f64::from(k) / f64::from(POINTS));
+                graph.add(DVec2::new(x, y) * radius, false);
+                let ends = [first + k, first + (k + 1) % POINTS];
+                graph.segments.push(Segment { ends, outline: true });
+            }
+        }
+        sample(&graph, &graph.arcs(), &Silent)
+    }
+
+    /// Without a limit the nearer ones would be told apart too, with more than a thousand segments each.
+    #[test]
+    fn curves_are_told_apart_by_sixteen_times_as_many_segments_at_most() {
+        assert_eq!(rings(0.5).unwrap().segments.len(), 18 + 22);
+        let near = rings(1e-3).unwrap().segments.len();
+        assert!((4 * 2 * 18..=MOST * 2 * 18).contains(&near), "{near}");
+        assert!(matches!(rings(1e-5), Err(FaceError::TooClose)));
+    }
+}
