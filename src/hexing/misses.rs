@@ -106,3 +106,52 @@ pub(super) fn boundary_triangles(mesh: &HexMesh) -> Vec<[u32; 3]> {
     };
     hex_boundary(&mesh.hexes).into_iter().flat_map(|(quad, _)| halves(quad)).collect()
 }
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::super::core::CoreReport;
+    use super::super::options::HexingOptions;
+    use super::*;
+    use crate::Silent;
+    use crate::solid::testing::{cuboid, solid};
+    use crate::solid::{CurveId, SurfaceId};
+
+    /// How many failures it is that a cube of 8 lost a curve and a surface of these sizes, with edges of 1.
+    fn failures(curve: Option<(Reason, f64)>, area: Option<f64>) -> usize {
+        let solid = solid(&cuboid([8, 8, 8]));
+        let options = HexingOptions { edge_length: 1.0, max_levels: 2, ..HexingOptions::default() };
+        let site = Site::new(&solid, &options, &Silent).unwrap();
+        let mut reduction = Reduction::default();
+        reduction.lost_curves = curve
+            .map(|(reason, length)| LostCurve {
+                curve: CurveId(0),
+                fate: CurveFate::Suppressed,
+                reason,
+                place: Point::ZERO,
+                length,
+            })
+            .into_iter()
+            .collect();
+        reduction.lost_surfaces = area
+            .map(|area| LostSurface { surface: SurfaceId(0), place: Point::ZERO, area })
+            .into_iter()
+            .collect();
+        let report = CoreReport { euler: 2, solid_euler: 2, ..CoreReport::default() };
+        let core = Core { mesh: HexMesh::default(), cells: Vec::new(), report, lost: Vec::new() };
+        let cells = FineCells { index: BoxIndex::new(std::iter::empty()), levels: Vec::new() };
+        misses(&site, Background::Grid, &core, &reduction, Vec::new(), &cells).len()
+    }
+
+    /// Cells are a quarter of an edge at the finest.
+    #[test]
+    fn what_the_finest_cells_are_too_large_for_is_given_up_at_once() {
+        assert_eq!([0.06, 0.07].map(|area| failures(None, Some(area))), [0, 1]);
+        assert_eq!([0.6, 0.65].map(|length| failures(Some((Reason::Short, length)), None)), [0, 1]);
+        assert_eq!(failures(Some((Reason::NoPath, 0.1)), None), 1);
+    }
+
+    #[test]
+    fn what_was_given_up_for_the_cells_sake_is_not_tried_again() {
+        assert_eq!([Reason::Costly, Reason::Low].map(|reason| failures(Some((reason, 8.0)), None)), [0, 0]);
+    }
+}
