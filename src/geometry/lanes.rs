@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Mul, Sub};
 use std::sync::OnceLock;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, f64x2, f64x4};
+use fearless_simd::{Level, Simd, f64x4};
 
 use super::Point;
 
@@ -149,20 +149,18 @@ impl<S: Simd> Vectors<S> {
         }
     }
 
-    /// Four points side by side. By pairs: as an array they would go through memory, and be waited for.
+    /// Four points side by side.
     #[inline(always)]
     pub(crate) fn of(simd: S, [a, b, c, d]: [Point; LANES]) -> Self {
-        let pair = |a: f64, b: f64| f64x2::splat(simd, a).zip_low(f64x2::splat(simd, b));
-        let four = |a: f64, b: f64, c: f64, d: f64| pair(a, b).combine(pair(c, d));
-        Self { x: four(a.x, b.x, c.x, d.x), y: four(a.y, b.y, c.y, d.y), z: four(a.z, b.z, c.z, d.z) }
+        Self::load(simd, &[[a.x, b.x, c.x, d.x], [a.y, b.y, c.y, d.y], [a.z, b.z, c.z, d.z]])
     }
 
-    /// The corners of four hexes; `corner` tells where the one of this number is of the hex in this lane.
+    /// The corners of four hexes.
     #[inline(always)]
-    pub(crate) fn corners(simd: S, corner: &impl Fn(usize, usize) -> Point) -> [Self; 8] {
+    pub(crate) fn corners(simd: S, hexes: &[[Point; 8]; LANES]) -> [Self; 8] {
         let mut corners = [Self::splat(simd, Point::ZERO); 8];
-        for (k, four) in corners.iter_mut().enumerate() {
-            *four = Self::of(simd, [corner(0, k), corner(1, k), corner(2, k), corner(3, k)]);
+        for (k, corner) in corners.iter_mut().enumerate() {
+            *corner = Self::of(simd, [hexes[0][k], hexes[1][k], hexes[2][k], hexes[3][k]]);
         }
         corners
     }

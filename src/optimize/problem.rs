@@ -133,18 +133,12 @@ impl Problem {
         self.nodes[..self.movable()].binary_search(&node).expect("a movable node") as u32
     }
 
-    /// Where a corner of a cell is.
-    #[inline]
-    pub(crate) fn corner(&self, cell: usize, k: usize) -> Point {
-        self.points[self.cells[cell][k] as usize]
-    }
-
     /// Where the corners of a cell are.
     #[inline]
     pub(crate) fn corners(&self, cell: usize) -> [Point; 8] {
         let mut corners = [Point::ZERO; 8];
-        for (k, corner) in corners.iter_mut().enumerate() {
-            *corner = self.corner(cell, k);
+        for (corner, &n) in corners.iter_mut().zip(&self.cells[cell]) {
+            *corner = self.points[n as usize];
         }
         corners
     }
@@ -160,12 +154,12 @@ impl Problem {
     }
 
     fn are_positive(&self, monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
-        four::are_positive(self.cells.len(), monitor, |cell, k| self.corner(cell, k))
+        four::are_positive(self.cells.len(), monitor, |cell| self.corners(cell))
     }
 
     /// The scaled Jacobian of each cell.
     pub(crate) fn scaled_jacobians(&self, monitor: &dyn Monitor) -> Result<Vec<f64>, Cancelled> {
-        four::scaled_jacobians(self.cells.len(), monitor, |cell, k| self.corner(cell, k))
+        four::scaled_jacobians(self.cells.len(), monitor, |cell| self.corners(cell))
     }
 
     /// The cells around the nodes, each once, ascending.

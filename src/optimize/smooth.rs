@@ -139,8 +139,8 @@ impl<'a> Rounds<'a> {
             let round =
                 |problem: &mut Problem, awake: &mut [bool]| sweep(problem, rules, &allowed, awake, monitor);
             let (changed, moved) = keep_positive(self.problem, &mut awake, monitor, round)?;
-            let corner = |k: usize, c: usize| self.problem.corner(changed[k] as usize, c);
-            let renewed = four::scaled_jacobians(changed.len(), monitor, corner)?;
+            let corners = |k: usize| self.problem.corners(changed[k] as usize);
+            let renewed = four::scaled_jacobians(changed.len(), monitor, corners)?;
             for (&cell, jacobian) in changed.iter().zip(renewed) {
                 self.jacobians[cell as usize] = jacobian;
             }
@@ -181,8 +181,8 @@ pub(crate) fn keep_positive(
     loop {
         let moved = round(problem, awake)?;
         let changed = problem.cells_around_within(&moved.nodes, monitor)?;
-        let corner = |k: usize, c: usize| problem.corner(changed[k] as usize, c);
-        let is_positive = four::are_positive(changed.len(), monitor, corner)?;
+        let is_positive =
+            four::are_positive(changed.len(), monitor, |k| problem.corners(changed[k] as usize))?;
         let now = || changed.iter().map(|&cell| cell as usize).zip(is_positive.iter().copied());
         let lost: Vec<usize> =
             now().filter(|&(cell, is)| problem.positive[cell] && !is).map(|(cell, _)| cell).collect();

@@ -105,7 +105,9 @@ impl Star {
             }
         }
         self.is_regularised = eps != 0.0;
-        let corner = |place: u32, corner: u8| problem.corner(place as usize / 8, corner.into());
+        let corner = |place: u32, corner: u8| {
+            problem.points[problem.cells[place as usize / 8][usize::from(corner)] as usize]
+        };
         let eps = |place: u32| eps * problem.volume[place as usize / 8];
         self.take(problem.points[node as usize], problem.uses(node), eps, corner);
     }
@@ -227,19 +229,20 @@ fn taken<S: Simd>(
             &AROUND[c as usize % 8],
             &AROUND[d as usize % 8],
         ];
-        let at = |i: usize| {
+        let mut corners = [v; 6];
+        for (i, at) in corners.iter_mut().enumerate() {
             let [a, b] = [corner(a, around[0][i]), corner(b, around[1][i])];
-            Vectors::of(simd, [a, b, corner(c, around[2][i]), corner(d, around[3][i])])
-        };
-        let (ends, across) = ([at(0), at(1), at(2)], [at(3), at(4), at(5)]);
+            *at = Vectors::of(simd, [a, b, corner(c, around[2][i]), corner(d, around[3][i])]);
+        }
         let [eps_a, eps_b, eps_c, eps_d] = [eps(a), eps(b), eps(c), eps(d)];
         cells.eps_squared = [eps_a * eps_a, eps_b * eps_b, eps_c * eps_c, eps_d * eps_d];
         cells.weight = WEIGHTS[four.len() - 1];
         let weight = f64x4::load_array_ref(simd, &cells.weight);
         for i in 0..3 {
-            ends[i].store_in(&mut cells.ends[i]);
-            lengths += (v - ends[i]).length_squared().sqrt() * weight;
-            let (b, c) = (across[(i + 1) % 3] - ends[i], across[(i + 2) % 3] - ends[i]);
+            let end = corners[i];
+            end.store_in(&mut cells.ends[i]);
+            lengths += (v - end).length_squared().sqrt() * weight;
+            let (b, c) = (corners[3 + (i + 1) % 3] - end, corners[3 + (i + 2) % 3] - end);
             let (b_square, c_square) = (b.length_squared(), c.length_squared());
             cells.beside[i] = Beside {
                 slope: b.cross(c).store(),
@@ -247,7 +250,7 @@ fn taken<S: Simd>(
                 product: (b_square * c_square).to_array(),
             };
         }
-        cells.slope = (ends[2] - ends[0]).cross(ends[1] - ends[0]).store();
+        cells.slope = (corners[2] - corners[0]).cross(corners[1] - corners[0]).store();
     }
     sum(lengths)
 }

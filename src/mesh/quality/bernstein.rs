@@ -78,16 +78,16 @@ pub fn is_positive(corners: &[Point; 8]) -> Certainty {
     Certainty::Undecided
 }
 
-/// Is the Jacobian determinant of each of four hexes positive everywhere, by where each corner of each is?
-pub(super) fn are_positive(corner: &impl Fn(usize, usize) -> Point) -> [bool; LANES] {
-    let sure = dispatch!(level(), simd => are_surely_positive(simd, corner));
-    from_fn(|lane| sure[lane] || is_positive(&from_fn(|k| corner(lane, k))) == Certainty::Positive)
+/// Is the Jacobian determinant of each of four hexes positive everywhere?
+pub(super) fn are_positive(hexes: &[[Point; 8]; LANES]) -> [bool; LANES] {
+    let sure = dispatch!(level(), simd => are_surely_positive(simd, hexes));
+    from_fn(|lane| sure[lane] || is_positive(&hexes[lane]) == Certainty::Positive)
 }
 
 /// Which of four hexes have positive coefficients alone?
 #[inline(always)]
-fn are_surely_positive<S: Simd>(simd: S, corner: &impl Fn(usize, usize) -> Point) -> [bool; LANES] {
-    let edges = Edges::of(&Vectors::corners(simd, corner));
+fn are_surely_positive<S: Simd>(simd: S, hexes: &[[Point; 8]; LANES]) -> [bool; LANES] {
+    let edges = Edges::of(&Vectors::corners(simd, hexes));
     let zero = edges.magnitude() * ROUNDING;
     let mut all = mask64x4::splat(simd, true);
     for coefficient in coefficients(&edges, f64x4::splat(simd, 0.0)) {

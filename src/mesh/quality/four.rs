@@ -6,16 +6,16 @@ use crate::geometry::Point;
 use crate::geometry::lanes::LANES;
 use crate::{Cancelled, Monitor, parallel};
 
-/// The scaled Jacobian of each of `count` hexes, by where each corner of each is: as [`super::scaled_jacobian`] has it.
+/// The scaled Jacobian of each of `count` hexes, by their corners: as [`super::scaled_jacobian`] has it.
 ///
 /// # Errors
 /// If the monitor stops it.
 pub(crate) fn scaled_jacobians(
     count: usize,
     monitor: &dyn Monitor,
-    corner: impl Fn(usize, usize) -> Point + Sync,
+    corners: impl Fn(usize) -> [Point; 8] + Sync,
 ) -> Result<Vec<f64>, Cancelled> {
-    by_four(count, monitor, |four| hex::scaled_jacobians(&|lane, k| corner(hex_at(four, lane, count), k)))
+    by_four(count, monitor, corners, hex::scaled_jacobians)
 }
 
 /// Whether each of `count` hexes is certainly positive in all of its inside: as [`super::is_positive`] has it.
@@ -25,23 +25,25 @@ pub(crate) fn scaled_jacobians(
 pub(crate) fn are_positive(
     count: usize,
     monitor: &dyn Monitor,
-    corner: impl Fn(usize, usize) -> Point + Sync,
+    corners: impl Fn(usize) -> [Point; 8] + Sync,
 ) -> Result<Vec<bool>, Cancelled> {
-    by_four(count, monitor, |four| bernstein::are_positive(&|lane, k| corner(hex_at(four, lane, count), k)))
-}
-
-/// Which of `count` hexes is looked at in this lane of the four: the last again where there are no more.
-fn hex_at(four: usize, lane: usize, count: usize) -> usize {
-    (LANES * four + lane).min(count - 1)
+    by_four(count, monitor, corners, bernstein::are_positive)
 }
 
 fn by_four<T: Send>(
     count: usize,
     monitor: &dyn Monitor,
-    look: impl Fn(usize) -> [T; LANES] + Sync,
+    corners: impl Fn(usize) -> [Point; 8] + Sync,
+    look: impl Fn(&[[Point; 8]; LANES]) -> [T; LANES] + Sync,
 ) -> Result<Vec<T>, Cancelled> {
     let mut all = Vec::new();
-    parallel::try_extend_arrays(&mut all, count.div_ceil(LANES), monitor, look)?;
+    parallel::try_extend_arrays(&mut all, count.div_ceil(LANES), monitor, |four| {
+        let mut hexes = [[Point::ZERO; 8]; LANES];
+        for (lane, hex) in hexes.iter_mut().enumerate() {
+            *hex = corners((LANES * four + lane).min(count - 1));
+        }
+        look(&hexes)
+    })?;
     all.truncate(count);
     Ok(all)
 }
@@ -64,10 +66,10 @@ mod tests {
                 hex[corner] = if by < -1.0 { hex[onto] } else { hex[corner] + Point::new(by, 0.3 - by, by * by) };
                 hex
             }).collect();
-            let jacobians = scaled_jacobians(hexes.len(), &Silent, |h, k| hexes[h][k]).unwrap();
+            let jacobians = scaled_jacobians(hexes.len(), &Silent, |h| hexes[h]).unwrap();
             let alone: Vec<f64> = hexes.iter().map(scaled_jacobian).collect();
             prop_assert_eq!(jacobians, alone);
-            let positive = are_positive(hexes.len(), &Silent, |h, k| hexes[h][k]).unwrap();
+            let positive = are_positive(hexes.len(), &Silent, |h| hexes[h]).unwrap();
             let alone: Vec<bool> = hexes.iter().map(|hex| is_positive(hex) == Certainty::Positive).collect();
             prop_assert_eq!(positive, alone);
         }

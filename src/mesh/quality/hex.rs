@@ -76,17 +76,17 @@ pub fn scaled_jacobian(corners: &[Point; 8]) -> f64 {
     corner_scaled_jacobians(corners).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// The least scaled Jacobians of four hexes, by where each corner of each is.
-pub(super) fn scaled_jacobians(corner: &impl Fn(usize, usize) -> Point) -> [f64; LANES] {
+/// The least scaled Jacobians of four hexes.
+pub(super) fn scaled_jacobians(hexes: &[[Point; 8]; LANES]) -> [f64; LANES] {
     #[inline(always)]
-    fn least<S: Simd>(simd: S, corner: &impl Fn(usize, usize) -> Point) -> [f64; LANES] {
-        let jacobians = at_corners(&Vectors::corners(simd, corner), f64x4::splat(simd, 0.0));
+    fn least<S: Simd>(simd: S, hexes: &[[Point; 8]; LANES]) -> [f64; LANES] {
+        let jacobians = at_corners(&Vectors::corners(simd, hexes), f64x4::splat(simd, 0.0));
         jacobians
             .into_iter()
             .fold(f64x4::splat(simd, f64::INFINITY), |least, jacobian| least.lesser(jacobian))
             .to_array()
     }
-    dispatch!(level(), simd => least(simd, corner))
+    dispatch!(level(), simd => least(simd, hexes))
 }
 
 /// The determinant of the unit vectors along the three edges of each corner, from -1 to 1; 0 at the ends of an edge

@@ -24,6 +24,16 @@ impl Bins {
         bin: impl Fn(usize) -> usize,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
+        Self::sorted(count, len, &bin, monitor)
+    }
+
+    /// No generic function: the web would have to fetch one for each caller.
+    fn sorted(
+        count: usize,
+        len: usize,
+        bin: &dyn Fn(usize) -> usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let mut offsets = vec![0u32; count + 1];
         for batch in batches(len, monitor) {
             batch?.for_each(|k| offsets[bin(k)] += 1);
