@@ -127,7 +127,7 @@ pub fn optimize(
     let mut problem = Problem::within(positions, hexes, &moves, monitor)?;
     let before = problem.state(monitor)?;
     let mut sweeps = untangle(&mut problem, constraints, options, monitor)?;
-    sweeps += smooth(&mut problem, constraints, options, monitor)?;
+    sweeps += smooth(&mut problem, constraints, options, None, monitor)?;
     let mut after = problem.state(monitor)?;
     if after.is_worse_than(&before) {
         problem.points.clone_from(&problem.anchors);

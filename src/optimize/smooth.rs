@@ -13,7 +13,7 @@ use super::problem::Problem;
 use super::sweep::{ASLEEP, Moved, Rules, sweep};
 use super::{OptimizeOptions, SMOOTHING};
 use crate::mesh::quality::four;
-use crate::{Cancelled, Monitor};
+use crate::{Cancelled, Monitor, parallel};
 
 /// Rounds with one energy.
 struct Course {
@@ -59,20 +59,31 @@ const GUARDED: f64 = 0.2;
 /// Rings of cells around those below the target whose nodes move too.
 const RINGS: usize = 1;
 
+/// Rings of cells around those that changed since all was smoothed that are smoothed too, but for the nodes around them.
+const RINGS_SINCE: usize = 2;
+
+/// Evening out goes on where its last round raised the mean by more than this, so many times.
+const RISING: f64 = 2.5e-4;
+const MORE: usize = 2;
+
 /// The worst cells are those below the scaled Jacobian that this share of the cells is below, or this many.
 const WORST_SHARE: f64 = 0.003;
 const WORST: usize = 100;
 
-/// Returns the number of rounds made.
+/// Where all was smoothed before, `moved` are the nodes that moved since: then the cells around these are smoothed, and others
+/// stay as they are. Returns the number of rounds made.
 pub(crate) fn smooth(
     problem: &mut Problem,
     guide: &dyn Guide,
     options: &OptimizeOptions,
+    moved: Option<&[bool]>,
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let courses = COURSES.into_iter().take(options.courses);
     let planned = courses.len() * (options.smooth_sweeps + options.worst_sweeps);
+    let looked_at = moved.map(|moved| changed(problem, moved, monitor)).transpose()?;
     let mut rounds = Rounds::new(problem, guide, planned, monitor)?;
+    rounds.looked_at = looked_at;
     for Course { weights, below } in courses {
         let target = options.target - below;
         rounds.make(weights, target, options.smooth_sweeps)?;
@@ -81,8 +92,21 @@ pub(crate) fn smooth(
     rounds.end()
 }
 
-/// Raises the mean scaled Jacobian: moves the nodes of all cells that are not nearly perfect. Returns the number of rounds
-/// made.
+/// Is a cell among those that changed as nodes moved, or in the rings around them?
+fn changed(problem: &Problem, moved: &[bool], monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
+    let moved = parallel::filter(moved.len(), |n| moved[n]);
+    let cells = problem.cells_around_within(&moved, monitor)?.into_iter().map(|cell| cell as usize);
+    let near = problem.rings_within(&cells.collect::<Vec<_>>(), RINGS_SINCE - 1, monitor)?;
+    let nodes = parallel::filter(near.len(), |n| near[n]);
+    let mut is_changed = vec![false; problem.cells.len()];
+    for cell in problem.cells_around_within(&nodes, monitor)? {
+        is_changed[cell as usize] = true;
+    }
+    Ok(is_changed)
+}
+
+/// Raises the mean scaled Jacobian: moves the nodes of all cells that are not nearly perfect. As long as that still raises
+/// it, half as many rounds are made again, twice at most. Returns the number of rounds made.
 pub(crate) fn even_out(
     problem: &mut Problem,
     guide: &dyn Guide,
@@ -90,8 +114,14 @@ pub(crate) fn even_out(
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let Evening { weights, target, sweeps } = evening;
-    let mut rounds = Rounds::new(problem, guide, sweeps, monitor)?;
+    let more = sweeps / 2;
+    let mut rounds = Rounds::new(problem, guide, sweeps + MORE * more, monitor)?;
     rounds.make(weights, target, sweeps)?;
+    for _ in 0..MORE {
+        if rounds.rise > RISING {
+            rounds.make(weights, target, more)?;
+        }
+    }
     rounds.end()
 }
 
@@ -102,6 +132,10 @@ struct Rounds<'a> {
     monitor: &'a dyn Monitor,
     /// The scaled Jacobian of each cell.
     jacobians: Vec<f64>,
+    /// Is a cell looked at? All are, if that is not told.
+    looked_at: Option<Vec<bool>>,
+    /// By how much the last round raised the mean.
+    rise: f64,
     /// How many rounds were made, how many might have been, and how many there may be.
     done: usize,
     passed: usize,
@@ -116,14 +150,18 @@ impl<'a> Rounds<'a> {
         monitor: &'a dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let jacobians = problem.scaled_jacobians(monitor)?;
-        Ok(Self { problem, guide, monitor, jacobians, done: 0, passed: 0, planned })
+        let (looked_at, rise) = (None, 0.0);
+        Ok(Self { problem, guide, monitor, jacobians, looked_at, rise, done: 0, passed: 0, planned })
     }
 
     /// Moves the nodes of the cells below the target, as often as that still does something.
     fn make(&mut self, weights: Weights, target: f64, sweeps: usize) -> Result<(), Cancelled> {
         let &mut Self { guide, monitor, planned, passed, .. } = self;
         self.passed += sweeps;
-        let low: Vec<usize> = (0..self.jacobians.len()).filter(|&c| self.jacobians[c] < target).collect();
+        let is_low = |&c: &usize| {
+            self.jacobians[c] < target && self.looked_at.as_ref().is_none_or(|looked_at| looked_at[c])
+        };
+        let low: Vec<usize> = (0..self.jacobians.len()).filter(is_low).collect();
         if low.is_empty() || sweeps == 0 {
             return Ok(());
         }
@@ -141,9 +179,12 @@ impl<'a> Rounds<'a> {
             let (changed, moved) = keep_positive(self.problem, &mut awake, monitor, round)?;
             let corners = |k: usize| self.problem.corners(changed[k] as usize);
             let renewed = four::scaled_jacobians(changed.len(), monitor, corners)?;
+            let mut rise = 0.0;
             for (&cell, jacobian) in changed.iter().zip(renewed) {
+                rise += jacobian - self.jacobians[cell as usize];
                 self.jacobians[cell as usize] = jacobian;
             }
+            self.rise = rise / self.jacobians.len() as f64;
             self.done += 1;
             if moved.far == 0 {
                 break;
@@ -231,7 +272,7 @@ mod tests {
             let before = problem.state(&Silent).unwrap();
             assert!(before.mean() < 0.9);
             let sweeps = even_out(&mut problem, &free, evening, &Silent).unwrap();
-            assert!((1..=evening.sweeps).contains(&sweeps), "{sweeps}");
+            assert!((1..=2 * evening.sweeps).contains(&sweeps), "{sweeps}");
             let after = problem.state(&Silent).unwrap();
             assert!(
                 after.mean() > 0.99 && after.worst() >= before.worst(),
@@ -240,6 +281,47 @@ mod tests {
                 after.worst()
             );
         }
+    }
+
+    /// All of a bar could be better; since it was smoothed a node of one end was moved.
+    #[test]
+    fn what_was_smoothed_before_stays_where_nothing_moved() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 1000 };
+        let mut mesh =
+            hex_grid(Aabb { min: Point::ZERO, max: Point::new(20.0, 2.0, 2.0) }, &options).unwrap();
+        let is_axis = |p: Point| p.y == 1.0 && p.z == 1.0 && p.x > 0.0 && p.x < 20.0;
+        let axis: Vec<bool> = mesh.positions.iter().map(|&p| is_axis(p)).collect();
+        for p in mesh.positions.iter_mut().filter(|p| is_axis(**p)) {
+            *p += Point::new(0.0, 0.5, -0.4);
+        }
+        let free = Constraints::none(mesh.positions.len());
+        let smoothed = |again: bool| {
+            let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|n| axis[n.index()]);
+            let before = problem.points.clone();
+            let moved: Vec<bool> = before[..problem.movable()].iter().map(|p| p.x == 2.0).collect();
+            let moved = again.then_some(moved.as_slice());
+            smooth(&mut problem, &free, &OptimizeOptions::default(), moved, &Silent).unwrap();
+            let moved = (0..problem.movable()).filter(|&n| problem.points[n] != before[n]);
+            moved.map(|n| before[n].x).fold(0.0, f64::max)
+        };
+        // Cells on both sides of the node, the rings, and a ring of nodes around.
+        assert_eq!(smoothed(true), 2.0 + 1.0 + (RINGS_SINCE + RINGS) as f64);
+        assert_eq!(smoothed(false), 19.0);
+    }
+
+    /// A long bar whose middle was pushed aside comes back slowly.
+    #[test]
+    fn evening_out_goes_on_as_long_as_the_mean_rises() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 1000 };
+        let bounds = Aabb { min: Point::ZERO, max: Point::new(2.0, 2.0, 40.0) };
+        let mut mesh = hex_grid(bounds, &options).unwrap();
+        let moves: Vec<bool> = mesh.positions.iter().map(|p| p.z > 0.0 && p.z < 40.0).collect();
+        mesh.positions.iter_mut().for_each(|p| p.x += 10.0 * libm::sin(p.z * std::f64::consts::PI / 40.0));
+        let evening = Evening::ALL[1];
+        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|n| moves[n.index()]);
+        let free = Constraints::none(mesh.positions.len());
+        let sweeps = even_out(&mut problem, &free, evening, &Silent).unwrap();
+        assert!(sweeps > evening.sweeps && sweeps <= 2 * evening.sweeps, "{sweeps}");
     }
 
     /// A round that loses a cell is made again from where the nodes were, with the cell guarded.

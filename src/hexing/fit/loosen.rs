@@ -18,7 +18,7 @@ use crate::{Cancelled, Monitor};
 const UNLOCK: f64 = 0.5;
 
 /// Draws those nodes to the nearest surface beside, where that does not take the mesh away from where they belong, and smooths
-/// the cells. Not on free forms, whose curves nobody drew. Returns the number of sweeps.
+/// the cells where something moved. Not on free forms, whose curves nobody drew. Returns the number of sweeps.
 pub(super) fn loosen(
     problem: &mut Problem,
     holds: &mut Holds,
@@ -55,7 +55,7 @@ pub(super) fn loosen(
         // Sliding they would go farther from where they belong.
         let unpinned = loose.holds.clone();
         nodes.iter().for_each(|id| loose.holds[id.index()] = Hold::Pinned);
-        sweeps += smooth(problem, &loose, smoothing, &part(UNLOCK, 1.0))?;
+        sweeps += smooth(problem, &loose, smoothing, Some(&unlocked.moved), &part(UNLOCK, 1.0))?;
         loose.holds = unpinned;
     }
     holds.holds = loose.holds;

@@ -7,7 +7,8 @@
 //!    strongly, and held there (`snap`) as soon as the cells bear it. No step is taken that turns a cell over;
 //! 3. `unlock`: around nodes that got stuck the others are let go for a while;
 //! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: as long
-//!    as fewer nodes are stuck than before, the last two steps are made again, twice at most;
+//!    as fewer nodes are stuck than before, the last two steps are made again, twice at most, with the cells around what
+//!    moved;
 //! 5. `loosen`: nodes that cannot get to a curve that somebody drew rest on a surface beside it;
 //! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed again, for which nodes that are
 //!    off the solid, or on curves that nobody drew, may go a little farther;
@@ -222,11 +223,13 @@ fn fitted(
     let all = vec![true; problem.movable()];
     let course = Course { stage: FITTING, sweeps: options.sweeps, floor: FLOOR };
     sweeps += pull(&mut problem, &mut holds, &chains, &all, &mut awake, course, &part(PULL, UNLOCK[0]))?;
-    for from in UNLOCK {
+    for (k, from) in UNLOCK.into_iter().enumerate() {
         let stuck = holds.stuck();
-        sweeps += unlock(&mut problem, &mut holds, &chains, &[], &part(from, from + UNLOCKING))?.sweeps;
+        let unlocked = unlock(&mut problem, &mut holds, &chains, &[], &part(from, from + UNLOCKING))?;
         holds.weight = 0.0;
-        sweeps += smooth(&mut problem, &holds, &options.smoothing, &part(from + UNLOCKING, from + ROUND))?;
+        let moved = (k > 0).then_some(unlocked.moved.as_slice());
+        let part = part(from + UNLOCKING, from + ROUND);
+        sweeps += unlocked.sweeps + smooth(&mut problem, &holds, &options.smoothing, moved, &part)?;
         if holds.stuck() == 0 || holds.stuck() >= stuck {
             break;
         }

@@ -8,6 +8,7 @@
 //!    more, wherever they stay positive. From then on they slide on the solid.
 
 use super::holds::{Hold, Holds};
+use super::regions::drawn;
 use super::snap::{Bearable, snap};
 use super::spread::{Chain, spread};
 use crate::optimize::{Problem, Rules, Weights, keep_positive, sweep};
@@ -47,8 +48,8 @@ pub(super) struct Course {
     pub(super) floor: f64,
 }
 
-/// Draws the nodes that are to be drawn, all of which are `allowed` to move; those `awake` are moved at first, then all of
-/// the allowed that have reason to. Returns the number of sweeps made.
+/// Draws those of the `allowed` nodes that are to be drawn; those `awake` are moved at first, then all of the allowed that
+/// have reason to. Returns the number of sweeps made.
 pub(super) fn pull(
     problem: &mut Problem,
     holds: &mut Holds,
@@ -64,8 +65,8 @@ pub(super) fn pull(
         monitor.checkpoint(course.stage, round as f64 / course.sweeps as f64)?;
         spread(chains, holds, |node| problem.place(node));
         holds.surfaces = if round < CURVES_FIRST { BEHIND } else { 1.0 };
-        for (awake, &node) in awake.iter_mut().zip(&problem.nodes) {
-            *awake |= holds.is(node, Hold::Drawn);
+        for ((awake, &allowed), &node) in awake.iter_mut().zip(allowed).zip(&problem.nodes) {
+            *awake |= allowed && holds.is(node, Hold::Drawn);
         }
         let (least, weights) = LEVELS[level];
         let rules = Rules { guide: &*holds, weights, eps: 0.0, floor: Some(course.floor), asleep: ASLEEP };
@@ -77,7 +78,7 @@ pub(super) fn pull(
             snap(problem, holds, Bearable { least, freedom }, allowed, awake, monitor)?;
         }
         if round >= CURVES_FIRST {
-            let stuck = holds.stuck();
+            let stuck = drawn(problem, holds).filter(|&n| allowed[n as usize]).count();
             in_vain = if stuck < fewest { 0 } else { in_vain + 1 };
             fewest = fewest.min(stuck);
             if in_vain >= PATIENCE && level + 1 < LEVELS.len() {
@@ -90,4 +91,42 @@ pub(super) fn pull(
         holds.weight *= GROWTH;
     }
     Ok(course.sweeps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::target::{Foot, Target};
+    use super::*;
+    use crate::Silent;
+    use crate::geometry::{Aabb, Point};
+    use crate::hexing::correspondence::Anchor;
+    use crate::mesh::{GridOptions, NodeId, hex_grid};
+    use crate::solid::SurfaceId;
+
+    /// What is at the boundary belongs a little above the cubes.
+    struct Above;
+
+    impl Target for Above {
+        fn foot(&self, _: Anchor, p: Point) -> Option<Foot> {
+            Some(Foot { point: p.with_z(2.2), direction: Point::Z })
+        }
+    }
+
+    #[test]
+    fn nodes_that_are_not_allowed_to_move_stay_drawn() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 100 };
+        let mesh = hex_grid(Aabb { min: Point::ZERO, max: Point::new(8.0, 2.0, 2.0) }, &options).unwrap();
+        let at = |x: f64| mesh.positions.iter().position(|&p| p == Point::new(x, 1.0, 2.0)).unwrap();
+        let [here, there] = [at(1.0), at(7.0)].map(NodeId::new);
+        let mut anchors = vec![Anchor::Inside; mesh.positions.len()];
+        [here, there].iter().for_each(|n| anchors[n.index()] = Anchor::Surface(SurfaceId(0)));
+        let mut holds = Holds::drawn(&Above, &anchors);
+        let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|_| true);
+        let allowed: Vec<bool> = problem.points.iter().map(|p| p.x < 4.0).collect();
+        let course = Course { stage: Stage("pulling"), sweeps: 20, floor: 0.2 };
+        let mut awake = vec![false; problem.movable()];
+        pull(&mut problem, &mut holds, &[], &allowed, &mut awake, course, &Silent).unwrap();
+        assert!(holds.is(here, Hold::Held) && problem.place(here).z == 2.2);
+        assert!(holds.is(there, Hold::Drawn) && problem.place(there).z == 2.0);
+    }
 }

@@ -91,15 +91,17 @@ impl Regions {
         }
     }
 
-    /// Puts everything back as it was in the regions where that was better. By how much the best of the others got better,
-    /// as a share of what it lacked.
+    /// Puts everything back as it was in the regions where that was better; in the others `moved` tells of the nodes that
+    /// stand elsewhere. Returns by how much the region of each node got better, as a share of what it lacked; 0 where it was
+    /// put back.
     pub(super) fn keep_better(
         &self,
         problem: &mut Problem,
         holds: &mut Holds,
         marks: &[Mark],
         before: State,
-    ) -> f64 {
+        moved: &mut [bool],
+    ) -> Vec<f64> {
         let now = self.off(problem, holds, marks);
         let mut is_better: Vec<bool> =
             now.iter().zip(&before.off).map(|(now, before)| now < before).collect();
@@ -108,14 +110,18 @@ impl Regions {
                 is_better[self.of[mark.node as usize] as usize] = false;
             }
         }
-        for n in (0..problem.movable()).filter(|&n| self.moves[n] && !is_better[self.of[n] as usize]) {
-            problem.points[n] = before.points[n];
-            let id = problem.nodes[n].index();
-            holds.holds[id] = before.holds[id];
+        for n in (0..problem.movable()).filter(|&n| self.moves[n]) {
+            if is_better[self.of[n] as usize] {
+                moved[n] |= problem.points[n] != before.points[n];
+            } else {
+                problem.points[n] = before.points[n];
+                let id = problem.nodes[n].index();
+                holds.holds[id] = before.holds[id];
+            }
         }
         problem.find_positive();
-        let gains = (0..now.len()).filter(|&r| is_better[r]).map(|r| 1.0 - now[r] / before.off[r]);
-        gains.fold(0.0, f64::max)
+        let gain = |r: usize| if is_better[r] { 1.0 - now[r] / before.off[r] } else { 0.0 };
+        self.of.iter().map(|&r| gain(r as usize)).collect()
     }
 
     /// What each region lacks: how far its drawn nodes are off the solid, and the marks off the mesh.
@@ -181,9 +187,14 @@ mod tests {
         let regions = Regions::new(&problem, (0..problem.movable()).map(is_near).collect());
         let before = regions.state(&problem, &holds, &[]);
         (problem.points[a].z, problem.points[b].z) = (1.9, 1.4);
-        let gain = regions.keep_better(&mut problem, &mut holds, &[], before);
+        let mut moved = vec![false; problem.movable()];
+        let gains = regions.keep_better(&mut problem, &mut holds, &[], before, &mut moved);
         let lacks = |off: f64| off + SUM * (off + OFF);
-        assert!((gain - (1.0 - lacks(0.1) / lacks(0.5))).abs() < 1e-12, "{gain}");
+        assert!((gains[a] - (1.0 - lacks(0.1) / lacks(0.5))).abs() < 1e-12, "{}", gains[a]);
+        assert_eq!(gains[b], 0.0);
+        let middle = problem.local(NodeId::new(mesh.positions.iter().position(|p| p.x == 6.0).unwrap()));
+        assert_eq!(gains[middle as usize], 0.0, "it is in no region");
+        assert_eq!((0..moved.len()).filter(|&n| moved[n]).collect::<Vec<_>>(), [a]);
         assert_eq!((problem.points[a].z, problem.points[b].z), (1.9, 1.5));
     }
 
@@ -208,8 +219,9 @@ mod tests {
             let marks = [Mark { node, place, quads: quads.clone() }];
             let before = regions.state(&problem, &holds, &marks);
             problem.points[node as usize].z = 1.3;
-            let gain = regions.keep_better(&mut problem, &mut holds, &marks, before);
-            assert_eq!(gain > 0.0, kept);
+            let mut moved = vec![false; problem.movable()];
+            let gains = regions.keep_better(&mut problem, &mut holds, &marks, before, &mut moved);
+            assert_eq!((gains[node as usize] > 0.0, moved[node as usize]), (kept, kept));
             assert_eq!(problem.points[node as usize].z, if kept { 1.3 } else { 1.1 });
         }
     }

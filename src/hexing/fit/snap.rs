@@ -18,8 +18,8 @@ pub(super) struct Bearable {
     pub(super) freedom: usize,
 }
 
-/// Moves the nodes that are drawn and have no more than so much `freedom` to their places or feet if the least scaled
-/// Jacobian around stays above `least`, or as it is. Those that get there are held from now on, and wake the nodes around.
+/// Moves those of the `allowed` nodes that are drawn and have no more than so much `freedom` to their places or feet if the
+/// least scaled Jacobian around stays above `least`, or as it is. Those that get there are held from now on, and wake the nodes around.
 /// Returns how many.
 pub(super) fn snap(
     problem: &mut Problem,
@@ -30,7 +30,7 @@ pub(super) fn snap(
     monitor: &dyn Monitor,
 ) -> Result<usize, Cancelled> {
     let (_, snapped) = keep_positive(problem, awake, monitor, |problem, _| {
-        round(problem, holds, Bearable { least, freedom }, monitor)
+        round(problem, holds, Bearable { least, freedom }, allowed, monitor)
     })?;
     for &node in &snapped.nodes {
         holds.holds[problem.nodes[node as usize].index()] = Hold::Held;
@@ -43,13 +43,15 @@ fn round(
     problem: &mut Problem,
     holds: &Holds,
     Bearable { least, freedom }: Bearable,
+    allowed: &[bool],
     monitor: &dyn Monitor,
 ) -> Result<Moved, Cancelled> {
     let mut moved = Moved::default();
     for colour in 0..problem.colours.len() {
         let is_drawn = |&n: &u32| {
             let id = problem.nodes[n as usize];
-            holds.is(id, Hold::Drawn) && holds.anchors[id.index()].freedom() <= freedom
+            let is_free = holds.anchors[id.index()].freedom() <= freedom;
+            allowed[n as usize] && is_free && holds.is(id, Hold::Drawn)
         };
         let nodes: Vec<u32> = problem.colours[colour].iter().copied().filter(is_drawn).collect();
         for batch in nodes.chunks(BATCH) {

@@ -97,7 +97,7 @@ pub(super) fn soften(
             guide.leash(n, length.max(guide.leash_of(n)));
         }
         let part = Part { whole: monitor, stage: FITTING, range: [part(round), part(round + 1)] };
-        sweeps += smooth(&mut problem, &guide, &SMOOTHING, &part)?;
+        sweeps += smooth(&mut problem, &guide, &SMOOTHING, None, &part)?;
         problem.write_back(&mut mesh.positions);
         for n in leaving {
             let place = mesh.positions[n.index()];
