@@ -2,31 +2,48 @@
 
 use super::background::{Failure, OctreeMesh};
 use super::core::{Core, CoreOptions, CoreReport, core};
-use super::correspondence::{Correspondence, Reduction, correspond};
-use super::fit::{FitOptions, fit};
+use super::correspondence::{Correspondence, correspond};
+use super::fit::{FitOptions, Fitted, fit, quality};
 use super::ground::{Plan, Site};
 use super::merit::Bar;
-use super::misses::{FineCells, boundary_triangles, misses, tolerance, too_far};
+use super::misses::{FineCells, misses, tolerance};
 use super::options::HexingError;
 use super::report::{AttemptReport, FeatureReport, FitCounts, MeshedReport, SheetCounts};
 use super::separate::separate;
 use super::sheets::insert_sheets;
+use crate::geometry::Point;
+use crate::mesh::topology::hex_boundary;
 use crate::mesh::{Distances, HexMesh, NodeId, Triangles};
-use crate::solid::{CurveId, SolidModel, SurfaceId};
+use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
 /// A mesh of a body and where it stands for what.
 #[derive(Clone, Debug)]
 pub(super) struct Meshed {
     pub(super) mesh: HexMesh,
-    /// All boundary quads, outward, each with the surface that it stands for.
-    pub(super) faces: Vec<([NodeId; 4], SurfaceId)>,
-    /// All boundary edges on curves, the lesser node first, sorted.
-    pub(super) edges: Vec<([NodeId; 2], CurveId)>,
-    /// What stands for what was given up.
-    pub(super) reduction: Reduction,
+    pub(super) on: Correspondence,
     /// What it missed and smaller cells may show.
     pub(super) failures: Vec<Failure>,
+    fitted: Fitted,
+}
+
+impl Meshed {
+    /// Finishes the mesh that is kept, and says in the `report` what came of that.
+    pub(super) fn finish(
+        &mut self,
+        solid: &SolidModel,
+        report: &mut MeshedReport,
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
+        let Self { mesh, on, fitted, .. } = self;
+        fitted.finish(mesh, on, solid, monitor)?;
+        let drawn_in = separate(mesh, monitor)?;
+        report.fit = FitCounts::new(&fitted.report, drawn_in);
+        let (worst, mean) = quality(mesh);
+        (report.worst, report.mean) = (worst.unwrap_or_default(), mean);
+        (report.distance, _) = distances(mesh, solid, f64::INFINITY, monitor)?;
+        Ok(())
+    }
 }
 
 /// How far a core is from the solid's kind.
@@ -75,22 +92,21 @@ pub(super) fn attempt(
     let fit_options = FitOptions { max_distance, ..FitOptions::default() };
     let fitted = fit(&mut mesh, &mut on, &mut sheets, solid, &fit_options, monitor)?;
     report.features = Some(FeatureReport::new(solid, &on.reduction));
-    if !fitted.inverted.is_empty() {
-        return Err(HexingError::Tangled(fitted.inverted.len()));
+    let came = &fitted.report;
+    if !came.inverted.is_empty() {
+        return Err(HexingError::Tangled(came.inverted.len()));
     }
-    let drawn_in = separate(&mut mesh, monitor)?;
+    let (distance, far) = distances(&mesh, solid, tolerance(options, site.taste), monitor)?;
     report.mesh = Some(MeshedReport {
-        sheets: SheetCounts::new(&sheets, &fitted),
-        fit: FitCounts::new(&fitted, drawn_in),
+        sheets: SheetCounts::new(&sheets, came),
+        fit: FitCounts::new(came, 0),
         hexes: mesh.hexes.len(),
-        worst: fitted.worst.unwrap_or_default(),
-        mean: fitted.mean,
-        distance: distances(&mesh, solid, monitor)?,
+        worst: came.worst.unwrap_or_default(),
+        mean: came.mean,
+        distance,
     });
-    let far = too_far(&mesh, solid, tolerance(options, site.taste), monitor)?;
     let failures = misses(site, plan.kind, &cut, &on.reduction, far, &cells);
-    let Correspondence { faces, edges, reduction, .. } = on;
-    Ok((report, Some(Meshed { mesh, faces, edges, reduction, failures })))
+    Ok((report, Some(Meshed { mesh, on, failures, fitted })))
 }
 
 /// The core; where it is not of the solid's kind, that with what is thinner than cells, if it is nearer. Is it this one?
@@ -118,10 +134,24 @@ fn levels_of(background: &OctreeMesh) -> Vec<usize> {
     counts
 }
 
-/// How far the boundaries of a mesh and a solid are from each other.
-fn distances(mesh: &HexMesh, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Distances, Cancelled> {
+/// How far the boundaries of a mesh and a solid are from each other, and the places where that is more than the limit.
+fn distances(
+    mesh: &HexMesh,
+    solid: &SolidModel,
+    limit: f64,
+    monitor: &dyn Monitor,
+) -> Result<(Distances, Vec<Point>), Cancelled> {
     let triangles = boundary_triangles(mesh);
     let boundary = Triangles { positions: &mesh.positions, triangles: &triangles };
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
-    Distances::between(boundary, surface, monitor)
+    Distances::with_samples_beyond(limit, boundary, surface, monitor)
+}
+
+/// The boundary of a mesh: two triangles for each quad.
+fn boundary_triangles(mesh: &HexMesh) -> Vec<[u32; 3]> {
+    let halves = |quad: [NodeId; 4]| {
+        let [a, b, c, d] = quad.map(|n| n.0);
+        [[a, b, c], [a, c, d]]
+    };
+    hex_boundary(&mesh.hexes).into_iter().flat_map(|(quad, _)| halves(quad)).collect()
 }

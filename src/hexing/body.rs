@@ -10,7 +10,7 @@
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
 //!    octree, and 3 for that.
 //!
-//! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and how many
+//! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and how many
 //! times as large as the first another may be is bounded.
 
 use super::attempt::{Meshed, attempt, off_euler};
@@ -19,8 +19,8 @@ use super::ground::{Plan, Site};
 use super::merit::{Bar, captured, distance, is_better, is_far, worst};
 use super::options::{HexingError, HexingOptions};
 use super::report::{AttemptReport, BodyReport, RefusedAttempt};
-use crate::Monitor;
 use crate::solid::SolidModel;
+use crate::{Cancelled, Monitor};
 
 /// How the lines of a grid are moved from try to try, as shares of an edge.
 const SHIFTS: [[f64; 3]; 2] = [[0.5; 3], [0.25, 0.5, 0.75]];
@@ -37,8 +37,9 @@ const FAR_GROWTH: f64 = 1.75;
 const OCTREE_GROWTH: f64 = 8.0;
 const KIND_GROWTH: f64 = 24.0;
 
-/// So many hexes are never too many for another try.
+/// So many hexes are never too many for another try; or so many, for an octree where that is not of the solid's kind.
 const FEW: u64 = 20_000;
+const FEW_FOR_KIND: u64 = 150_000;
 
 /// The best mesh of a body, and what was done for it.
 pub(super) struct Body {
@@ -66,7 +67,7 @@ pub(super) fn mesh_body(
         Search { site: &site, attempts: Vec::new(), refused: Vec::new(), best: None, tangled: None, monitor };
     let first = site.plan(site.choice.kind);
     match search.attempt(first, options.max_hexes) {
-        Err(HexingError::NothingLeft { .. }) => return Ok(search.end(&site)),
+        Err(HexingError::NothingLeft { .. }) => return Ok(search.end()?),
         // What may be swept, but not be refined as the options want it.
         Err(HexingError::Background(BackgroundError::Refine(_))) if site.may_be_grid() => {
             search.attempt(site.plan(Background::Grid), options.max_hexes)?;
@@ -92,7 +93,7 @@ pub(super) fn mesh_body(
     }
     match (&search.best, search.tangled) {
         (None, Some(hexes)) => Err(HexingError::Tangled(hexes)),
-        _ => Ok(search.end(&site)),
+        _ => Ok(search.end()?),
     }
 }
 
@@ -178,9 +179,9 @@ impl Search<'_> {
     /// How many an octree may have, and what is refined of it.
     fn limit_of_octree(&self) -> u64 {
         let is_wrong = self.best_report().is_none_or(|best| off_euler(&best.core) > 0);
-        let growth = if is_wrong { KIND_GROWTH } else { OCTREE_GROWTH };
+        let (growth, few) = if is_wrong { (KIND_GROWTH, FEW_FOR_KIND) } else { (OCTREE_GROWTH, FEW) };
         let first = self.attempts.first().map_or(0, |first| first.core.background);
-        ((growth * first as f64) as u64).max(FEW).min(self.site.options.max_hexes)
+        ((growth * first as f64) as u64).max(few).min(self.site.options.max_hexes)
     }
 
     /// So many times the hexes of the background that was the first of its kind.
@@ -264,7 +265,13 @@ impl Search<'_> {
         })
     }
 
-    fn end(self, site: &Site<'_>) -> Body {
+    /// Finishes the best attempt.
+    fn end(mut self) -> Result<Body, Cancelled> {
+        let site = self.site;
+        if let Some(Best { meshed, number, .. }) = &mut self.best {
+            let report = self.attempts[*number].mesh.as_mut().expect("a mesh is kept");
+            meshed.finish(site.solid, report, self.monitor)?;
+        }
         let report = BodyReport {
             place: site.solid.bounds().center().to_array(),
             choice: site.choice,
@@ -273,7 +280,7 @@ impl Search<'_> {
             attempts: self.attempts,
             refused: self.refused,
         };
-        Body { best: self.best, report }
+        Ok(Body { best: self.best, report })
     }
 }
 
@@ -296,6 +303,33 @@ mod tests {
         let Body { report, .. } = mesh_body(&solid(&surface), &options, &Silent).unwrap();
         let kinds: Vec<_> = report.attempts.iter().map(|a| (a.background, a.levels.len())).collect();
         assert_eq!(kinds[..2], [(Background::Swept, 1), (Background::Swept, 2)]);
+    }
+
+    /// Euler numbers of a first attempt on a background of so many hexes, and how many an octree may have then.
+    fn limit_of_octree(euler: i64, background: usize, max_hexes: u64) -> u64 {
+        let solid = solid(&voxels([4, 4, 4], |_| true));
+        let options = HexingOptions { edge_length: 1.0, max_hexes, ..HexingOptions::default() };
+        let site = Site::new(&solid, &options, &Silent).unwrap();
+        let mut search = Search {
+            site: &site,
+            attempts: Vec::new(),
+            refused: Vec::new(),
+            best: None,
+            tangled: None,
+            monitor: &Silent,
+        };
+        search.attempt(site.plan(Background::Grid), max_hexes).unwrap();
+        (search.attempts[0].core.euler, search.attempts[0].core.background) = (euler, background);
+        search.limit_of_octree()
+    }
+
+    /// Where a coarse grid has another Euler number an octree may have as many hexes as small holes take.
+    #[test]
+    fn an_octree_may_be_larger_where_the_kind_is_wrong() {
+        let many = 1_000_000;
+        assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 2446, many)), [20_000, 150_000]);
+        assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 10_000, many)), [80_000, 240_000]);
+        assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 10_000, 50_000)), [50_000, 50_000]);
     }
 
     #[test]

@@ -7,10 +7,6 @@ use super::ground::Site;
 use super::merit::Taste;
 use super::options::HexingOptions;
 use crate::geometry::{Aabb, BoxIndex, Point};
-use crate::mesh::topology::hex_boundary;
-use crate::mesh::{HexMesh, NodeId, Triangles, samples_beyond};
-use crate::solid::SolidModel;
-use crate::{Cancelled, Monitor};
 
 /// How far mesh and solid may be from each other before smaller cells are tried: beyond that a feature is not shown that
 /// these may show.
@@ -83,36 +79,13 @@ pub(super) fn misses(
     failures
 }
 
-/// The places where mesh and solid are farther from each other than allowed.
-pub(super) fn too_far(
-    mesh: &HexMesh,
-    solid: &SolidModel,
-    max_distance: f64,
-    monitor: &dyn Monitor,
-) -> Result<Vec<Point>, Cancelled> {
-    let triangles = boundary_triangles(mesh);
-    let boundary = Triangles { positions: &mesh.positions, triangles: &triangles };
-    let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
-    let mut far = samples_beyond(max_distance, boundary, surface, monitor)?;
-    far.extend(samples_beyond(max_distance, surface, boundary, monitor)?);
-    Ok(far)
-}
-
-/// The boundary of a mesh: two triangles for each quad.
-pub(super) fn boundary_triangles(mesh: &HexMesh) -> Vec<[u32; 3]> {
-    let halves = |quad: [NodeId; 4]| {
-        let [a, b, c, d] = quad.map(|n| n.0);
-        [[a, b, c], [a, c, d]]
-    };
-    hex_boundary(&mesh.hexes).into_iter().flat_map(|(quad, _)| halves(quad)).collect()
-}
-
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
     use super::super::core::CoreReport;
     use super::super::options::HexingOptions;
     use super::*;
     use crate::Silent;
+    use crate::mesh::HexMesh;
     use crate::solid::testing::{cuboid, solid};
     use crate::solid::{CurveId, SurfaceId};
 

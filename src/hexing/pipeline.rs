@@ -153,7 +153,7 @@ impl Whole {
                 if let Some(second_order) = &mut self.second_order {
                     second_order.add(&meshed, solid, self.mesh.positions.len(), monitor)?;
                 }
-                self.append(body, meshed.mesh, meshed.faces, &surfaces);
+                self.append(body, meshed.mesh, meshed.on.faces, &surfaces);
             }
             None => {
                 let place = solid.bounds().center().to_array();

@@ -123,8 +123,9 @@ impl SecondOrderBodies {
         first: usize,
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
-        let Meshed { mesh, faces, edges, reduction, .. } = meshed;
-        let standing = Standing { faces, edges, target: &OnSolid::new(solid, reduction) };
+        let Meshed { mesh, on, .. } = meshed;
+        let standing =
+            Standing { faces: &on.faces, edges: &on.edges, target: &OnSolid::new(solid, &on.reduction) };
         let (made, report) = second_order(mesh, &standing, self.made.hex, monitor)?;
         self.starts.push([first, mesh.positions.len(), self.made.positions.len(), self.made.nodes.len()]);
         self.made.positions.extend(made.positions);

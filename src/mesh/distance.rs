@@ -58,12 +58,24 @@ impl Distances {
         surface: Triangles<'_>,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
+        Ok(Self::with_samples_beyond(f64::INFINITY, mesh, surface, monitor)?.0)
+    }
+
+    /// The same, with the samples that are more than `limit` from the other surface: those of the mesh, then those of the
+    /// surface.
+    pub(crate) fn with_samples_beyond(
+        limit: f64,
+        mesh: Triangles<'_>,
+        surface: Triangles<'_>,
+        monitor: &dyn Monitor,
+    ) -> Result<(Self, Vec<Point>), Cancelled> {
         monitor.checkpoint(MEASURING, 0.0)?;
-        let mesh_to_surface = Distance::from_to(mesh, surface, monitor)?;
+        let of_mesh = Samples::measured(mesh, surface, monitor)?;
         monitor.checkpoint(MEASURING, 0.5)?;
-        let surface_to_mesh = Distance::from_to(surface, mesh, monitor)?;
+        let of_surface = Samples::measured(surface, mesh, monitor)?;
         monitor.progress(MEASURING, 1.0);
-        Ok(Self { mesh_to_surface, surface_to_mesh })
+        let beyond = of_mesh.beyond(limit).chain(of_surface.beyond(limit)).collect();
+        Ok((Self { mesh_to_surface: of_mesh.distance(), surface_to_mesh: of_surface.distance() }, beyond))
     }
 
     /// Those of surfaces without a sample.
@@ -131,48 +143,45 @@ impl Triangles<'_> {
     }
 }
 
-/// The samples of a surface that are more than `limit` from another one.
-pub(crate) fn samples_beyond(
-    limit: f64,
-    from: Triangles<'_>,
-    to: Triangles<'_>,
-    monitor: &dyn Monitor,
-) -> Result<Vec<Point>, Cancelled> {
-    let (samples, distances) = sampled(from, to, monitor)?;
-    Ok(samples.into_iter().zip(distances).filter(|(_, distance)| *distance > limit).map(|(p, _)| p).collect())
+/// Samples of a surface, and how far each is from another one.
+struct Samples {
+    places: Vec<Point>,
+    distances: Vec<f64>,
 }
 
-/// The samples of a surface, and how far each is from another one.
-fn sampled(
-    from: Triangles<'_>,
-    to: Triangles<'_>,
-    monitor: &dyn Monitor,
-) -> Result<(Vec<Point>, Vec<f64>), Cancelled> {
-    let nearest = NearestTriangle::within(to.corners(), monitor)?;
-    let samples = from.samples();
-    let distance = |p: Point| nearest.closest_point(p).map_or(f64::INFINITY, |q| q.distance(p));
-    let mut distances: Vec<f64> = Vec::with_capacity(samples.len());
-    for batch in samples.chunks(BATCH) {
-        monitor.proceed()?;
-        parallel::extend(&mut distances, batch.len(), |k| distance(batch[k]));
+impl Samples {
+    fn measured(from: Triangles<'_>, to: Triangles<'_>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let nearest = NearestTriangle::within(to.corners(), monitor)?;
+        let places = from.samples();
+        let distance = |p: Point| nearest.closest_point(p).map_or(f64::INFINITY, |q| q.distance(p));
+        let mut distances: Vec<f64> = Vec::with_capacity(places.len());
+        for batch in places.chunks(BATCH) {
+            monitor.proceed()?;
+            parallel::extend(&mut distances, batch.len(), |k| distance(batch[k]));
+        }
+        Ok(Self { places, distances })
     }
-    Ok((samples, distances))
-}
 
-impl Distance {
-    fn from_to(from: Triangles<'_>, to: Triangles<'_>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let (samples, distances) = sampled(from, to, monitor)?;
-        let farthest = (0..samples.len()).max_by(|&i, &j| distances[i].total_cmp(&distances[j]));
-        let count = samples.len() as f64;
-        Ok(Self {
+    /// Those that are farther than `limit`.
+    fn beyond(&self, limit: f64) -> impl Iterator<Item = Point> {
+        self.places.iter().zip(&self.distances).filter(move |(_, d)| **d > limit).map(|(p, _)| *p)
+    }
+
+    fn distance(&self) -> Distance {
+        let Self { places, distances } = self;
+        let farthest = (0..places.len()).max_by(|&i, &j| distances[i].total_cmp(&distances[j]));
+        let count = places.len() as f64;
+        Distance {
             max: farthest.map_or(0.0, |i| distances[i]),
             mean: distances.iter().sum::<f64>() / count,
             rms: (distances.iter().map(|d| d * d).sum::<f64>() / count).sqrt(),
-            farthest: farthest.map_or([0.0; 3], |i| samples[i].to_array()),
-            samples: samples.len(),
-        })
+            farthest: farthest.map_or([0.0; 3], |i| places[i].to_array()),
+            samples: places.len(),
+        }
     }
+}
 
+impl Distance {
     fn none() -> Self {
         Self { max: 0.0, mean: 0.0, rms: 0.0, farthest: [0.0; 3], samples: 0 }
     }
@@ -255,9 +264,15 @@ mod tests {
     fn samples_beyond_a_limit() {
         let (mesh, surface) = (corners(0.0), corners(2.0));
         let triangle = |positions| Triangles { positions, triangles: &[[0, 1, 2]] };
-        let beyond = |limit| samples_beyond(limit, triangle(&mesh), triangle(&surface), &Silent).unwrap();
-        assert_eq!(beyond(1.9).len(), 4);
-        assert_eq!(beyond(2.0), []);
+        let measured = |limit| {
+            Distances::with_samples_beyond(limit, triangle(&mesh), triangle(&surface), &Silent).unwrap()
+        };
+        let (distances, beyond) = measured(1.9);
+        assert_eq!(distances, between(&mesh, &surface));
+        let [a, b, c, _] = mesh;
+        let of_mesh = [a, b, c, Point::new(1.0, 1.0, 0.0)];
+        assert_eq!(beyond, [of_mesh, of_mesh.map(|p| p.with_z(2.0))].concat());
+        assert_eq!(measured(2.0).1, []);
     }
 
     #[test]

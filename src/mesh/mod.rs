@@ -20,7 +20,6 @@ mod volume;
 mod weld;
 
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
-pub(crate) use distance::samples_beyond;
 pub use distance::{Distance, Distances, Triangles, distances_of_hexes};
 pub use face_groups::FaceGroups;
 pub use faces::Faces;

@@ -15,7 +15,8 @@
 //! 7. `even`: all is smoothed for the mean;
 //! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places. Where they stay far apart
 //!    the last two steps are made again around there, with other courses, and each counts that brings them much nearer;
-//! 9. `even` once more, for what is inside and in planes.
+//! 9. `even` once more, for what is inside and in planes ([`Fitted::finish`]): that takes mesh and solid no farther from
+//!    each other, so that meshes can be held against each other before it, and only the one that is kept needs it.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
 //! off the solid and is reported with its distance.
@@ -25,6 +26,7 @@
 
 mod apart;
 mod even;
+mod finish;
 mod holds;
 mod inflate;
 mod loosen;
@@ -39,13 +41,13 @@ mod spread;
 mod target;
 mod unlock;
 
-use super::correspondence::{Anchor, Correspondence};
+use super::correspondence::Correspondence;
 use super::sheets::SheetReport;
 use crate::geometry::Point;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexId, HexMesh, NodeId};
 use crate::optimize::{Evening, OptimizeOptions, smooth};
-use crate::solid::{SolidModel, SurfaceClass};
+use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
 use apart::Survey;
 use even::even;
@@ -79,9 +81,6 @@ const LOOSEN: f64 = 0.9;
 const SOFTEN: f64 = 0.9;
 const EVEN: f64 = 0.94;
 const NEAR: f64 = 0.6;
-
-/// The share of the evening out that is done where only what keeps mesh and solid as near is left.
-const LAST: f64 = 0.9;
 
 /// A course more of evening out counts where it leaves so much less between mesh and solid.
 const NEARER: f64 = 0.92;
@@ -150,7 +149,15 @@ pub struct FitReport {
     pub inverted: Vec<HexId>,
 }
 
-/// Moves the nodes of `mesh` to the solid as `on` tells. Sheets that cannot be fitted are taken back, in all of `mesh`,
+/// What came of a fit, and what holds the nodes.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// What came of it.
+    pub report: FitReport,
+    holds: Vec<Hold>,
+}
+
+/// Moves the nodes of `mesh` to the solid as `on` tells: all but the last step. Sheets that cannot be fitted are taken back, in all of `mesh`,
 /// `on` and `sheets`; soft curves that leave no room for good cells are given up in `on`.
 ///
 /// # Errors
@@ -162,7 +169,7 @@ pub fn fit(
     solid: &SolidModel,
     options: &FitOptions,
     monitor: &dyn Monitor,
-) -> Result<FitReport, Cancelled> {
+) -> Result<Fitted, Cancelled> {
     let before = mesh.positions.clone();
     let reduction = on.reduction.clone();
     let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
@@ -183,7 +190,7 @@ pub fn fit(
         (report.worst, report.mean) = quality(mesh);
         report.off = off(mesh, on, &holds, &OnSolid::new(solid, &on.reduction));
     }
-    Ok(report)
+    Ok(Fitted { report, holds })
 }
 
 #[cfg(test)]
@@ -267,9 +274,8 @@ fn even_and_near(
     let mut survey = Survey::new(mesh, &on.faces, solid, monitor)?;
     let (mut sweeps, mut apart, mut moves) = (0, f64::INFINITY, vec![true; mesh.positions.len()]);
     for (k, evening) in Evening::ALL.into_iter().enumerate() {
-        let range = |from: f64, to: f64| {
-            [from, to].map(|share| LAST * (k as f64 + share) / Evening::ALL.len() as f64)
-        };
+        let range =
+            |from: f64, to: f64| [from, to].map(|share| (k as f64 + share) / Evening::ALL.len() as f64);
         let part = |from, to| Part { whole: monitor, stage: FITTING, range: range(from, to) };
         let before = mesh.positions.clone();
         sweeps += even(mesh, on, holds, solid, evening, &|n| moves[n.index()], &part(0.0, NEAR))?;
@@ -285,22 +291,11 @@ fn even_and_near(
             break;
         }
     }
-    // What slides within a plane, and what is inside, takes mesh and solid no farther from each other.
-    let slides = |n: NodeId| match on.anchors[n.index()] {
-        Anchor::Inside => true,
-        Anchor::Surface(s) => {
-            let is_planar = matches!(solid.surfaces()[s.index()].class, SurfaceClass::Planar { .. });
-            is_planar && on.reduction.members(s) == [s] && holds[n.index()] == Hold::Held
-        }
-        _ => false,
-    };
-    let part = Part { whole: monitor, stage: FITTING, range: [LAST, 1.0] };
-    sweeps += even(mesh, on, holds, solid, Evening::LAST, &slides, &part)?;
     Ok(sweeps)
 }
 
 /// The least scaled Jacobian, if there is one, and the mean.
-fn quality(mesh: &HexMesh) -> (Option<f64>, f64) {
+pub(super) fn quality(mesh: &HexMesh) -> (Option<f64>, f64) {
     let jacobians = parallel::collect(mesh.hexes.len(), |h| {
         scaled_jacobian(&mesh.hexes[h].map(|n| mesh.positions[n.index()]))
     });

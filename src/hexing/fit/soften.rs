@@ -4,8 +4,8 @@
 //! or go round a small part of it, nodes are held at places that have no room for good cells. As long as cells are poor,
 //!
 //! 1. the curve at each that is missed least is given up: its nodes slide on the surface from now on;
-//! 2. the cells around are smoothed, with many sweeps, since they are few. Nodes that are off the solid come no farther
-//!    from where they belong;
+//! 2. the cells around are smoothed, with many sweeps, since they are few; from the second time on those where a curve was
+//!    given up, and the worst alone. Nodes that are off the solid come no farther from where they belong;
 //! 3. nodes of poor cells that are off the solid may go a little farther, and on free forms those that belong on other soft
 //!    curves, and their corners, may leave them.
 
@@ -42,6 +42,9 @@ const THERE: f64 = 1e-6;
 /// Where no curve is left, cells are smoothed as long as that raises the worst by this.
 const ENOUGH: f64 = 0.002;
 
+/// Cells that were smoothed before are smoothed again where they are no better than the worst by more than this.
+const WORST: f64 = 0.03;
+
 /// How often curves are given up.
 const ROUNDS: usize = 12;
 
@@ -69,13 +72,10 @@ pub(super) fn soften(
         let jacobians = parallel::collect(mesh.hexes.len(), |h| {
             scaled_jacobian(&mesh.hexes[h].map(|n| mesh.positions[n.index()]))
         });
-        let low = parallel::filter(jacobians.len(), |h| jacobians[h] < POOR);
-        let before = std::mem::replace(&mut worst, jacobians.into_iter().fold(1.0, f64::min));
-        let at_hex = |&h: &u32| {
-            let hex = &mesh.hexes[h as usize];
-            least_missed(hex, mean_edge(&hex.map(|n| mesh.positions[n.index()])), on, solid)
-        };
-        let curves: BTreeSet<CurveId> = low.iter().filter_map(at_hex).collect();
+        let before = std::mem::replace(&mut worst, jacobians.iter().copied().fold(1.0, f64::min));
+        let is_worst = |h: u32| round == 0 || jacobians[h as usize] < worst + WORST;
+        let poor = parallel::filter(jacobians.len(), |h| jacobians[h] < POOR);
+        let (low, curves) = mendable(mesh, on, solid, &poor, is_worst);
         if low.is_empty() || was_last && worst < before + ENOUGH {
             break;
         }
@@ -110,6 +110,26 @@ pub(super) fn soften(
         }
     }
     Ok(sweeps)
+}
+
+/// Of these hexes those that are among the worst or at a soft curve, and the soft curve at each that is missed least.
+fn mendable(
+    mesh: &HexMesh,
+    on: &Correspondence,
+    solid: &SolidModel,
+    poor: &[u32],
+    is_worst: impl Fn(u32) -> bool,
+) -> (Vec<u32>, BTreeSet<CurveId>) {
+    let (mut low, mut curves) = (Vec::new(), BTreeSet::new());
+    for &h in poor {
+        let hex = &mesh.hexes[h as usize];
+        let curve = least_missed(hex, mean_edge(&hex.map(|n| mesh.positions[n.index()])), on, solid);
+        if curve.is_some() || is_worst(h) {
+            low.push(h);
+        }
+        curves.extend(curve);
+    }
+    (low, curves)
 }
 
 /// The nodes of these hexes that are off the solid, and of what nobody drew those that belong on curves and corners.
@@ -189,6 +209,7 @@ mod tests {
     use crate::Silent;
     use crate::hexing::correspondence::correspond;
     use crate::mesh::{GridOptions, PolygonMesh, hex_grid};
+    use crate::solid::testing::{moved, voxels};
 
     /// A house of 2 by 2 whose roof has slopes of 20 degrees.
     fn house() -> SolidModel {
@@ -233,5 +254,32 @@ mod tests {
         assert!(soften(&mut mesh, &mut on, &mut holds, &solid, unbounded, &Silent).unwrap() > 0);
         assert!(worst(&mesh) > POOR);
         assert_eq!(on.reduction.count(CurveFate::Captured), curves);
+    }
+
+    /// The foot of a dome is a soft curve: hexes there are mended whether they are the worst or not.
+    #[test]
+    fn hexes_at_soft_curves_and_the_worst_are_mended() {
+        let dome = |p: Point| {
+            let out = 1.0 - (p.truncate() - 4.0).length() / 2.5;
+            if p.z == 4.0 && out > 0.0 { p + Point::Z * out } else { p }
+        };
+        let solid = crate::solid::testing::solid(&moved(voxels([8, 8, 4], |_| true), dome));
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: true, max_hexes: 1000 };
+        let mesh = hex_grid(solid.bounds(), &options).unwrap();
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let all: Vec<u32> = (0..mesh.hexes.len() as u32).collect();
+        let (at_curves, curves) = mendable(&mesh, &on, &solid, &all, |_| false);
+        let is_at_one = |h: &u32| {
+            let nodes = mesh.hexes[*h as usize];
+            nodes.iter().any(|&n| curves_at(n, &on, &solid).iter().any(|c| curves.contains(c)))
+        };
+        assert!(!at_curves.is_empty() && at_curves.iter().all(is_at_one), "{at_curves:?} {curves:?}");
+        let other = all.iter().copied().find(|h| !at_curves.contains(h)).unwrap();
+        let (with_other, same) = mendable(&mesh, &on, &solid, &all, |h| h == other);
+        assert_eq!(same, curves);
+        let mut expected = at_curves;
+        expected.push(other);
+        expected.sort_unstable();
+        assert_eq!(with_other, expected);
     }
 }

@@ -190,7 +190,8 @@ fn a_box_across_the_grid_keeps_its_edges() {
         core(&voxels(&cubes(14, |_| true)), &solid, &CoreOptions::default(), &Silent).unwrap().mesh;
     let mut on = correspond(&mesh, &solid, &Silent).unwrap();
     let mut sheets = insert_sheets(&mut mesh, &mut on, &solid, &Silent).unwrap();
-    let report = fit(&mut mesh, &mut on, &mut sheets, &solid, &FitOptions::default(), &Silent).unwrap();
+    let report =
+        fit(&mut mesh, &mut on, &mut sheets, &solid, &FitOptions::default(), &Silent).unwrap().report;
     let reduction = on.reduction.clone();
     let target = OnSolid::new(&solid, &reduction);
     Fitted { mesh, on, sheets, report }.expect(&target, 0.5, 0.85);

@@ -16,18 +16,22 @@ fn hexed(part: &PolygonMesh, share: f64) -> HexedSolid {
     hex_solid(part, &options, &Silent).expect("a mesh")
 }
 
-/// Is the mesh conforming, a manifold, and positive everywhere?
+/// Is the mesh conforming, a manifold, and positive everywhere, and does the report tell its quality?
 pub(super) fn assert_sound(hexed: &HexedSolid, name: &str) {
     let mesh = &hexed.mesh;
     assert!(!mesh.hexes.is_empty(), "{name}");
     assert_eq!(check_hexes(mesh), [], "{name}");
     let report = hex_report(&HexTopology::of(mesh));
     assert!(report.is_manifold(), "{name}");
+    let mut jacobians = Vec::new();
     for hex in &mesh.hexes {
         let corners: [Point; 8] = hex.map(|n| mesh.positions[n.index()]);
-        assert!(scaled_jacobian(&corners) > 0.0, "{name}");
+        jacobians.push(scaled_jacobian(&corners));
         assert!(is_positive(&corners) == Certainty::Positive, "{name}");
     }
+    let (result, mean) = (hexed.report.result(), jacobians.iter().sum::<f64>() / jacobians.len() as f64);
+    assert!(result.worst > 0.0 && (result.mean - mean).abs() < 1e-9, "{name}: {}, not {mean}", result.mean);
+    assert_eq!(result.worst, jacobians.into_iter().fold(1.0, f64::min), "{name}");
 }
 
 #[test]

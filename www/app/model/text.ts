@@ -67,6 +67,7 @@ const DOING: Readonly<Record<string, string>> = {
   sheets: 'adding layers at the boundary',
   fitting: 'moving nodes to the boundary',
   unlocking: 'freeing nodes that are stuck',
+  finishing: 'evening out cells',
   distance: 'measuring distances',
 };
 

@@ -1,0 +1,93 @@
+//! Raises the mean of a mesh that is kept once more: what is inside is smoothed, and what slides within a plane, which takes
+//! mesh and solid no farther from each other.
+
+use super::super::correspondence::{Anchor, Correspondence};
+use super::even::even;
+use super::holds::Hold;
+use super::progress::Part;
+use super::{Fitted, quality};
+use crate::mesh::{HexMesh, NodeId};
+use crate::optimize::Evening;
+use crate::solid::{SolidModel, SurfaceClass};
+use crate::{Cancelled, Monitor, Stage};
+
+const FINISHING: Stage = Stage("finishing");
+
+impl Fitted {
+    /// The last step of the fit, for a mesh that is kept: `mesh` and `on` are as the fit left them.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when the monitor says so; then nodes are where they were.
+    pub fn finish(
+        &mut self,
+        mesh: &mut HexMesh,
+        on: &Correspondence,
+        solid: &SolidModel,
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
+        let slides = |n: NodeId| match on.anchors[n.index()] {
+            Anchor::Inside => true,
+            Anchor::Surface(s) => {
+                let is_planar = matches!(solid.surfaces()[s.index()].class, SurfaceClass::Planar { .. });
+                is_planar && on.reduction.members(s) == [s] && self.holds[n.index()] == Hold::Held
+            }
+            _ => false,
+        };
+        let all = Part { whole: monitor, stage: FINISHING, range: [0.0, 1.0] };
+        self.report.sweeps += even(mesh, on, &self.holds, solid, Evening::LAST, &slides, &all)?;
+        (self.report.worst, self.report.mean) = quality(mesh);
+        Ok(())
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::super::{FitOptions, fit};
+    use super::*;
+    use crate::Silent;
+    use crate::geometry::Point;
+    use crate::hexing::correspondence::correspond;
+    use crate::hexing::sheets::insert_sheets;
+    use crate::mesh::{GridOptions, hex_grid};
+    use crate::solid::testing::{cuboid, solid};
+
+    /// Stops the work at its second question.
+    struct Soon(std::sync::atomic::AtomicU32);
+
+    impl Monitor for Soon {
+        fn progress(&self, _: Stage, _: f64) {}
+
+        fn cancelled(&self) -> bool {
+            self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed) > 0
+        }
+    }
+
+    /// Since a cube was fitted a node inside was pushed aside, and one of a side.
+    #[test]
+    fn finishing_raises_the_mean_and_stays_on_the_solid() {
+        let solid = solid(&cuboid([4, 4, 4]));
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: true, max_hexes: 100 };
+        let mut mesh = hex_grid(solid.bounds(), &options).unwrap();
+        let mut on = correspond(&mesh, &solid, &Silent).unwrap();
+        let mut sheets = insert_sheets(&mut mesh, &mut on, &solid, &Silent).unwrap();
+        let options = FitOptions::default();
+        let mut fitted = fit(&mut mesh, &mut on, &mut sheets, &solid, &options, &Silent).unwrap();
+        let node = |p: Point| mesh.positions.iter().position(|&q| q.distance(p) < 1e-9).unwrap();
+        let (inside, aside) = (node(Point::splat(2.0)), node(Point::new(2.0, 2.0, 4.0)));
+        mesh.positions[inside] += Point::new(0.3, 0.2, 0.1);
+        mesh.positions[aside] += Point::new(0.3, -0.2, 0.0);
+        let (pushed, (worst, mean)) = (mesh.positions.clone(), quality(&mesh));
+        let sweeps = fitted.report.sweeps;
+
+        let stopped = fitted.finish(&mut mesh, &on, &solid, &Soon(0.into()));
+        assert_eq!((stopped, &mesh.positions, fitted.report.sweeps), (Err(Cancelled), &pushed, sweeps));
+        fitted.finish(&mut mesh, &on, &solid, &Silent).unwrap();
+        assert_eq!((fitted.report.worst, fitted.report.mean), quality(&mesh));
+        assert!(fitted.report.mean > mean && fitted.report.worst >= worst && fitted.report.sweeps > sweeps);
+        assert!(mesh.positions[aside] != pushed[aside] && mesh.positions[aside].z == 4.0);
+        for (n, anchor) in on.anchors.iter().enumerate() {
+            let stays = matches!(anchor, Anchor::Curve(_) | Anchor::Corner(_));
+            assert!(!stays || mesh.positions[n] == pushed[n], "{anchor:?}");
+        }
+    }
+}
