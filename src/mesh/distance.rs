@@ -70,12 +70,12 @@ impl Distances {
         monitor: &dyn Monitor,
     ) -> Result<(Self, Vec<Point>), Cancelled> {
         monitor.checkpoint(MEASURING, 0.0)?;
-        let of_mesh = Samples::measured(mesh, surface, monitor)?;
+        let (mesh_to_surface, mut beyond) = Samples::measured(mesh, surface, monitor)?.told(limit);
         monitor.checkpoint(MEASURING, 0.5)?;
-        let of_surface = Samples::measured(surface, mesh, monitor)?;
+        let (surface_to_mesh, of_surface) = Samples::measured(surface, mesh, monitor)?.told(limit);
         monitor.progress(MEASURING, 1.0);
-        let beyond = of_mesh.beyond(limit).chain(of_surface.beyond(limit)).collect();
-        Ok((Self { mesh_to_surface: of_mesh.distance(), surface_to_mesh: of_surface.distance() }, beyond))
+        beyond.extend(of_surface);
+        Ok((Self { mesh_to_surface, surface_to_mesh }, beyond))
     }
 
     /// Those of surfaces without a sample.
@@ -162,9 +162,11 @@ impl Samples {
         Ok(Self { places, distances })
     }
 
-    /// Those that are farther than `limit`.
-    fn beyond(&self, limit: f64) -> impl Iterator<Item = Point> {
-        self.places.iter().zip(&self.distances).filter(move |(_, d)| **d > limit).map(|(p, _)| *p)
+    /// The distance, and those that are farther than `limit`.
+    fn told(self, limit: f64) -> (Distance, Vec<Point>) {
+        let distance = self.distance();
+        let all = self.places.into_iter().zip(self.distances);
+        (distance, all.filter(|(_, d)| *d > limit).map(|(p, _)| p).collect())
     }
 
     fn distance(&self) -> Distance {
