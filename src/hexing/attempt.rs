@@ -3,7 +3,7 @@
 use super::background::{Failure, OctreeMesh};
 use super::core::{Core, CoreOptions, CoreReport, core};
 use super::correspondence::{Correspondence, correspond};
-use super::fit::{FitOptions, Fitted, fit, quality};
+use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, Part, fit, quality};
 use super::ground::{Plan, Site};
 use super::merit::Bar;
 use super::misses::{FineCells, misses, tolerance};
@@ -41,7 +41,8 @@ impl Meshed {
         report.fit = FitCounts::new(&fitted.report, drawn_in);
         let (worst, mean) = quality(mesh);
         (report.worst, report.mean) = (worst.unwrap_or_default(), mean);
-        (report.distance, _) = distances(mesh, solid, f64::INFINITY, monitor)?;
+        let rest = Part { whole: monitor, stage: FINISHING, range: [FINISHED, 1.0] };
+        (report.distance, _) = distances(mesh, solid, f64::INFINITY, &rest)?;
         Ok(())
     }
 }

@@ -11,7 +11,10 @@ use crate::optimize::Evening;
 use crate::solid::{SolidModel, SurfaceClass};
 use crate::{Cancelled, Monitor, Stage};
 
-const FINISHING: Stage = Stage("finishing");
+pub(in super::super) const FINISHING: Stage = Stage("finishing");
+
+/// The share of that stage that is done then; the rest is for looking at what came of it.
+pub(in super::super) const FINISHED: f64 = 0.8;
 
 impl Fitted {
     /// The last step of the fit, for a mesh that is kept: `mesh` and `on` are as the fit left them.
@@ -33,7 +36,7 @@ impl Fitted {
             }
             _ => false,
         };
-        let all = Part { whole: monitor, stage: FINISHING, range: [0.0, 1.0] };
+        let all = Part { whole: monitor, stage: FINISHING, range: [0.0, FINISHED] };
         self.report.sweeps += even(mesh, on, &self.holds, solid, Evening::LAST, &slides, &all)?;
         (self.report.worst, self.report.mean) = quality(mesh);
         Ok(())

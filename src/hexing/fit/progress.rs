@@ -3,10 +3,10 @@
 use crate::{Monitor, Stage};
 
 /// What the stages of a part report is progress between the ends of its range in the stage of the whole.
-pub(super) struct Part<'a> {
-    pub(super) whole: &'a dyn Monitor,
-    pub(super) stage: Stage,
-    pub(super) range: [f64; 2],
+pub(in super::super) struct Part<'a> {
+    pub(in super::super) whole: &'a dyn Monitor,
+    pub(in super::super) stage: Stage,
+    pub(in super::super) range: [f64; 2],
 }
 
 impl Monitor for Part<'_> {

@@ -67,7 +67,6 @@ const DOING: Readonly<Record<string, string>> = {
   sheets: 'adding layers at the boundary',
   fitting: 'moving nodes to the boundary',
   unlocking: 'freeing nodes that are stuck',
-  finishing: 'evening out cells',
   distance: 'measuring distances',
 };
 
