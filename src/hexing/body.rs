@@ -10,8 +10,8 @@
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
 //!    octree, and 3 for that.
 //!
-//! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and how many
-//! times as large as the first another may be is bounded.
+//! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and
+//! how many times as large as the first another may be is bounded.
 
 use super::attempt::{Meshed, attempt, off_euler};
 use super::background::{Background, BackgroundError, Failure, Missed, retry};
