@@ -36,10 +36,13 @@ impl HexForest {
             edges_of_face(side as usize % 6, &edges.of_hex[hex_of(side).index()])
         };
         let face_edges = faces.ids().map(edges_of).collect();
-        let sides = faces.of_hex.iter().zip(&edges.of_hex);
-        let sides = sides.map(|(&faces, &edges)| Sides { edges, faces }).collect();
-        let level_faces = LevelFaces::base(faces.nodes, face_edges);
-        let base = HexLevel::base(input.hexes.clone(), sides, LevelEdges::base(edges.ends), level_faces);
+        // What is taken apart here is not kept beside what is made of it.
+        let (nodes, faces_of_hex) = faces.into_parts();
+        let HexEdges { ends, of_hex: edges_of_hex } = edges;
+        let sides = faces_of_hex.into_iter().zip(edges_of_hex);
+        let sides = sides.map(|(faces, edges)| Sides { edges, faces }).collect();
+        let level_faces = LevelFaces::base(nodes, face_edges);
+        let base = HexLevel::base(input.hexes.clone(), sides, LevelEdges::base(ends), level_faces);
         Ok(Self { positions: input.positions.clone(), levels: vec![HexLevel::default()], base })
     }
 }

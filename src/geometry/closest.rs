@@ -1,7 +1,10 @@
 //! The closest points of segments and triangles, as weights of their ends.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4};
+
 use super::Point;
-use super::lanes::Number;
+use super::lanes::{Number, Vectors};
 
 /// Twice a triangle's area below this share of the product of two of its edges: too thin for a normal, its
 /// edges stand for it. The error is that share of an edge, far below what coordinates can tell.
@@ -59,6 +62,55 @@ pub fn closest_on_triangle(p: Point, corners: [Point; 3]) -> Point {
     corners[0] * wa + corners[1] * wb + corners[2] * wc
 }
 
+/// The points of four triangles that are closest to `p`, and how far they are from it, squared: to the bit what
+/// [`closest_on_triangle`] tells of each.
+#[inline(always)]
+pub(crate) fn closest_on_four<S: Simd>(
+    simd: S,
+    p: Vectors<f64x4<S>>,
+    [a, b, c]: [Vectors<f64x4<S>>; 3],
+) -> (Vectors<f64x4<S>>, f64x4<S>) {
+    let (zero, one) = (f64x4::splat(simd, 0.0), f64x4::splat(simd, 1.0));
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let normal = ab.cross(ac);
+    let area = normal.length_squared();
+    let needle = area.simd_le(ab.length_squared() * (NEEDLE * NEEDLE) * ac.length_squared());
+    let wb = ap.cross(ac).dot(normal);
+    let wc = ab.cross(ap).dot(normal);
+    let wa = area - wb - wc;
+    let is_over = !needle & wa.simd_ge(0.0) & wb.simd_ge(0.0) & wc.simd_ge(0.0);
+    let mut weights = (one, zero, zero);
+    if !is_over.all_true() {
+        let mut nearest = f64x4::splat(simd, f64::INFINITY);
+        for (side, (beyond, from, to)) in [(wc, a, b), (wa, b, c), (wb, c, a)].into_iter().enumerate() {
+            let along = to - from;
+            let squared = along.length_squared();
+            let share = ((p - from).dot(along) / squared).greater(zero).lesser(one);
+            let t = squared.simd_gt(0.0).select(share, zero);
+            let (of_from, of_to) = (one - t, t);
+            let distance = (p - (from * of_from + to * of_to)).length_squared();
+            let is_nearest = (beyond.simd_lt(0.0) | needle) & distance.simd_lt(nearest);
+            nearest = is_nearest.select(distance, nearest);
+            let (wa, wb, wc) = match side {
+                0 => (of_from, of_to, zero),
+                1 => (zero, of_from, of_to),
+                _ => (of_to, zero, of_from),
+            };
+            weights = (
+                is_nearest.select(wa, weights.0),
+                is_nearest.select(wb, weights.1),
+                is_nearest.select(wc, weights.2),
+            );
+        }
+    }
+    let (wb, wc) = (wb / area, wc / area);
+    let wa = (one - wb - wc).greater(zero);
+    let point = a * is_over.select(wa, weights.0)
+        + b * is_over.select(wb, weights.1)
+        + c * is_over.select(wc, weights.2);
+    (point, (point - p).length_squared())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,9 +147,39 @@ mod tests {
         use proptest::prelude::*;
 
         use super::*;
+        use crate::geometry::lanes::{Row, level};
         use crate::geometry::samples::{of_triangle, point, points};
 
+        fn four(p: Point, triangles: &[[Point; 3]; 4]) -> ([Point; 4], Row) {
+            #[inline(always)]
+            fn of<S: Simd>(simd: S, p: Point, t: &[[Point; 3]; 4]) -> ([[f64; 4]; 3], Row) {
+                let corner = |k: usize| Vectors::of(simd, [t[0][k], t[1][k], t[2][k], t[3][k]]);
+                let p = Vectors::splat(simd, p.to_array());
+                let (points, squared) = closest_on_four(simd, p, [corner(0), corner(1), corner(2)]);
+                (points.store(), squared.to_array())
+            }
+            let ([x, y, z], squared) = fearless_simd::dispatch!(level(), simd => of(simd, p, triangles));
+            ([0, 1, 2, 3].map(|k| Point::new(x[k], y[k], z[k])), squared)
+        }
+
         proptest! {
+            #[test]
+            fn four_are_looked_at_as_one_is(
+                p in point(3.0), corners in prop::array::uniform4(points::<3>(2.0)), thin in 0usize..5,
+            ) {
+                // One of them may be as thin as a line, or a point.
+                let mut corners = corners;
+                if let Some([a, b, c]) = corners.get_mut(thin) {
+                    (*b, *c) = if thin == 0 { (*a, *a) } else { (*b, a.lerp(*b, 0.25)) };
+                }
+                let (points, squared) = four(p, &corners);
+                for (k, &triangle) in corners.iter().enumerate() {
+                    let expected = closest_on_triangle(p, triangle);
+                    prop_assert_eq!(points[k], expected);
+                    prop_assert_eq!(squared[k], expected.distance_squared(p));
+                }
+            }
+
             #[test]
             fn no_sample_is_closer(p in point(3.0), corners in points::<3>(2.0)) {
                 let found = closest_on_triangle(p, corners).distance(p);

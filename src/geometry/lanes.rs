@@ -1,22 +1,28 @@
-//! Four numbers and four vectors side by side, with the instructions of the processor at hand. Each lane is computed as
-//! one number would be, and nothing is fused, so that all processors give the same bits.
+//! Numbers and vectors side by side, four of double precision or eight of single precision, with the instructions of the
+//! processor at hand. Each lane is computed as one number would be, and nothing is fused, so that all processors give the
+//! same bits.
 
 use std::ops::{Add, AddAssign, Mul, Sub};
 use std::sync::OnceLock;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, f64x4};
+use fearless_simd::{Level, Simd, f32x8, f64x4};
 
 use super::Point;
 
-/// How many stand side by side.
+/// How many numbers of double precision stand side by side.
 pub(crate) const LANES: usize = 4;
+
+/// How many of single precision.
+pub(crate) const SINGLES: usize = 8;
 
 /// Numbers in store.
 pub(crate) type Row = [f64; LANES];
+pub(crate) type SingleRow = [f32; SINGLES];
 
 /// Vectors in store: all x, then all y, then all z.
 pub(crate) type Rows = [Row; 3];
+pub(crate) type SingleRows = [SingleRow; 3];
 
 /// What the processor can do.
 pub(crate) fn level() -> Level {
@@ -31,9 +37,9 @@ pub(crate) fn sum<S: Simd>(lanes: f64x4<S>) -> f64 {
     (a + b) + (c + d)
 }
 
-/// One number, or four side by side: what is computed from vectors is written once for both.
+/// One number, or some side by side: what is computed from vectors is written once for all.
 pub(crate) trait Number:
-    Copy + Add<Output = Self> + AddAssign + Mul<Output = Self> + Mul<f64, Output = Self>
+    Copy + Add<Output = Self> + AddAssign + Sub<Output = Self> + Mul<Output = Self>
 {
     /// The greater of two numbers. By a comparison: what the web has for it takes ten times as long, since it looks for NaN.
     fn greater(self, other: Self) -> Self;
@@ -59,26 +65,32 @@ impl Number for f64 {
     }
 }
 
-impl<S: Simd> Number for f64x4<S> {
-    #[inline(always)]
-    fn greater(self, other: Self) -> Self {
-        self.simd_lt(other).select(other, self)
-    }
+macro_rules! numbers {
+    ($($lanes:ident),*) => {$(
+        impl<S: Simd> Number for $lanes<S> {
+            #[inline(always)]
+            fn greater(self, other: Self) -> Self {
+                self.simd_lt(other).select(other, self)
+            }
 
-    #[inline(always)]
-    fn lesser(self, other: Self) -> Self {
-        other.simd_lt(self).select(other, self)
-    }
+            #[inline(always)]
+            fn lesser(self, other: Self) -> Self {
+                other.simd_lt(self).select(other, self)
+            }
 
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.sqrt()
-    }
+            #[inline(always)]
+            fn root(self) -> Self {
+                self.sqrt()
+            }
+        }
+    )*};
 }
+
+numbers!(f32x8, f64x4);
 
 /// One vector, or four side by side.
 pub(crate) trait Vector: Copy + Sub<Output = Self> + Mul<f64, Output = Self> {
-    type Number: Number;
+    type Number: Number + Mul<f64, Output = Self::Number>;
 
     fn dot(self, other: Self) -> Self::Number;
     fn cross(self, other: Self) -> Self;
@@ -105,29 +117,25 @@ impl Vector for Point {
     }
 }
 
-/// Four vectors.
+/// As many vectors as there are numbers in `N`.
 #[derive(Clone, Copy)]
-pub(crate) struct Vectors<S: Simd> {
-    pub(crate) x: f64x4<S>,
-    pub(crate) y: f64x4<S>,
-    pub(crate) z: f64x4<S>,
+pub(crate) struct Vectors<N> {
+    pub(crate) x: N,
+    pub(crate) y: N,
+    pub(crate) z: N,
 }
 
-impl<S: Simd> Vector for Vectors<S> {
+impl<S: Simd> Vector for Vectors<f64x4<S>> {
     type Number = f64x4<S>;
 
     #[inline(always)]
     fn dot(self, other: Self) -> f64x4<S> {
-        self.x * other.x + self.y * other.y + self.z * other.z
+        self.dot(other)
     }
 
     #[inline(always)]
     fn cross(self, other: Self) -> Self {
-        Self {
-            x: self.y * other.z - other.y * self.z,
-            y: self.z * other.x - other.z * self.x,
-            z: self.x * other.y - other.x * self.y,
-        }
+        self.cross(other)
     }
 
     #[inline(always)]
@@ -139,16 +147,45 @@ impl<S: Simd> Vector for Vectors<S> {
     }
 }
 
-impl<S: Simd> Vectors<S> {
+impl<N: Number> Vectors<N> {
     #[inline(always)]
-    pub(crate) fn load(simd: S, [x, y, z]: &Rows) -> Self {
+    pub(crate) fn dot(self, other: Self) -> N {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    #[inline(always)]
+    pub(crate) fn cross(self, other: Self) -> Self {
         Self {
-            x: f64x4::load_array_ref(simd, x),
-            y: f64x4::load_array_ref(simd, y),
-            z: f64x4::load_array_ref(simd, z),
+            x: self.y * other.z - other.y * self.z,
+            y: self.z * other.x - other.z * self.x,
+            z: self.x * other.y - other.x * self.y,
         }
     }
 
+    #[inline(always)]
+    pub(crate) fn length_squared(self) -> N {
+        self.dot(self)
+    }
+
+    /// The same vector everywhere.
+    #[inline(always)]
+    pub(crate) fn splat<S: Simd>(simd: S, [x, y, z]: [N::Element; 3]) -> Self
+    where
+        N: SimdBase<S>,
+    {
+        Self { x: N::splat(simd, x), y: N::splat(simd, y), z: N::splat(simd, z) }
+    }
+
+    #[inline(always)]
+    pub(crate) fn load<S: Simd>(simd: S, [x, y, z]: &[N::Array; 3]) -> Self
+    where
+        N: SimdBase<S>,
+    {
+        Self { x: N::load_array_ref(simd, x), y: N::load_array_ref(simd, y), z: N::load_array_ref(simd, z) }
+    }
+}
+
+impl<S: Simd> Vectors<f64x4<S>> {
     /// Four points side by side.
     #[inline(always)]
     pub(crate) fn of(simd: S, [a, b, c, d]: [Point; LANES]) -> Self {
@@ -158,7 +195,7 @@ impl<S: Simd> Vectors<S> {
     /// The corners of four hexes.
     #[inline(always)]
     pub(crate) fn corners(simd: S, hexes: &[[Point; 8]; LANES]) -> [Self; 8] {
-        let mut corners = [Self::splat(simd, Point::ZERO); 8];
+        let mut corners = [Self::splat(simd, [0.0; 3]); 8];
         for (k, corner) in corners.iter_mut().enumerate() {
             *corner = Self::of(simd, [hexes[0][k], hexes[1][k], hexes[2][k], hexes[3][k]]);
         }
@@ -178,16 +215,6 @@ impl<S: Simd> Vectors<S> {
         self.z.store_array(z);
     }
 
-    #[inline(always)]
-    pub(crate) fn splat(simd: S, v: Point) -> Self {
-        Self { x: f64x4::splat(simd, v.x), y: f64x4::splat(simd, v.y), z: f64x4::splat(simd, v.z) }
-    }
-
-    #[inline(always)]
-    pub(crate) fn length_squared(self) -> f64x4<S> {
-        self.dot(self)
-    }
-
     /// The sum of the four.
     #[inline(always)]
     pub(crate) fn sum(self) -> Point {
@@ -195,7 +222,7 @@ impl<S: Simd> Vectors<S> {
     }
 }
 
-impl<S: Simd> Add for Vectors<S> {
+impl<N: Number> Add for Vectors<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -203,14 +230,14 @@ impl<S: Simd> Add for Vectors<S> {
     }
 }
 
-impl<S: Simd> AddAssign for Vectors<S> {
+impl<N: Number> AddAssign for Vectors<N> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl<S: Simd> Sub for Vectors<S> {
+impl<N: Number> Sub for Vectors<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -218,15 +245,15 @@ impl<S: Simd> Sub for Vectors<S> {
     }
 }
 
-impl<S: Simd> Mul<f64x4<S>> for Vectors<S> {
+impl<N: Number> Mul<N> for Vectors<N> {
     type Output = Self;
     #[inline(always)]
-    fn mul(self, factor: f64x4<S>) -> Self {
+    fn mul(self, factor: N) -> Self {
         Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
     }
 }
 
-impl<S: Simd> Mul<f64> for Vectors<S> {
+impl<S: Simd> Mul<f64> for Vectors<f64x4<S>> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {

@@ -3,6 +3,7 @@
 mod aabb;
 mod bilinear;
 mod box_index;
+mod boxes;
 mod centered_box;
 mod centered_cylinder;
 mod closest;
@@ -27,7 +28,7 @@ pub use eigen::symmetric_eigen;
 pub use frame::Frame;
 pub use gjk::{Convex, hull_within};
 pub use hull::{Corners, Hull};
-pub use nearest::{Facet, Nearest, NearestFacet, NearestTriangle};
+pub(crate) use nearest::{Facet, Nearest, NearestFacet, NearestTriangle, Numbered};
 pub use quad_hull::QuadHull;
 pub use solid::Solid;
 pub use triangulate::{area_vector, triangulate};

@@ -1,50 +1,61 @@
 //! The point of a surface that is nearest to another point.
 //!
-//! Whoever asks mostly asks again nearby. So each thread remembers where its last searches ended, and begins the next one
-//! with that facet: with a short distance from the first most of the tree need not be looked at. What is found does not
-//! depend on where it began.
+//! Whoever asks mostly asks again nearby, though not at once. So each thread remembers where the last search for points
+//! around there ended, and begins the next one with the facets there: with a short distance from the first most of the tree
+//! need not be looked at. What is found does not depend on where it began.
 
 use std::cell::Cell;
 use std::ops::Range;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, dispatch, f64x4};
+use fearless_simd::{Simd, dispatch};
 
-use super::lanes::{LANES, Number, Row, Rows, Vector, Vectors, level};
+use super::boxes::{Boxes, Cube};
+use super::closest::closest_on_four;
+use super::lanes::{LANES, Row, Rows, SINGLES, Vectors, level};
 use super::{Aabb, Point, closest_on_triangle};
 use crate::{Cancelled, Monitor, Silent};
 
 /// The monitor is asked before more facets than this are split.
 const MANY: usize = 1 << 14;
 
-/// More boxes than ever wait: three a level, of which 2^32 facets have no more than 17.
-const WAITING: usize = 64;
+/// More boxes than ever wait: seven a level, of which 2^31 facets have no more than 11.
+const WAITING: usize = 96;
 
-/// How many trees a thread remembers its last search in, at most.
-const REMEMBERED: usize = 64;
+/// How many searches a thread remembers, at most.
+const REMEMBERED: usize = 1 << 13;
 
 /// No place in a tree.
-const NOWHERE: usize = usize::MAX;
+const NOWHERE: u32 = u32::MAX;
 
 /// A facet's distance may be computed less than that of the box around it by this share of the greatest coordinate.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 thread_local! {
-    /// Where the last searches ended, among the facets in the order of the tree.
+    /// The leaves where the last searches ended.
     static LAST: [Cell<u32>; REMEMBERED] = const { [const { Cell::new(0) }; REMEMBERED] };
 }
 
 /// A piece of a surface.
-pub trait Facet {
+pub(crate) trait Facet: Sized {
+    /// How many are looked at together: `LANES` at most.
+    const TOGETHER: usize;
+
     /// Points whose convex hull it is in.
     fn corners(&self) -> &[Point];
 
     /// Its point that is closest to `p`.
     fn closest(&self, p: Point) -> Point;
+
+    /// The points that are closest to `p` of `TOGETHER` facets at most, and how far they are from it, squared: to the bit
+    /// what [`closest`](Self::closest) tells. Where there are fewer the rest say nothing.
+    fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row);
 }
 
 /// A triangle.
 impl Facet for [Point; 3] {
+    const TOGETHER: usize = LANES;
+
     fn corners(&self) -> &[Point] {
         self
     }
@@ -52,66 +63,85 @@ impl Facet for [Point; 3] {
     fn closest(&self, p: Point) -> Point {
         closest_on_triangle(p, *self)
     }
+
+    #[inline(always)]
+    fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
+        let mut four = [&facets[0].facet; LANES];
+        for (lane, numbered) in four.iter_mut().zip(facets) {
+            *lane = &numbered.facet;
+        }
+        let [a, b, c, d] = four;
+        let corners = [
+            Vectors::of(simd, [a[0], b[0], c[0], d[0]]),
+            Vectors::of(simd, [a[1], b[1], c[1], d[1]]),
+            Vectors::of(simd, [a[2], b[2], c[2], d[2]]),
+        ];
+        let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
+        (points.store(), squared.to_array())
+    }
 }
 
-/// Finds, among many facets, the one that is nearest to a point: a tree of boxes, four of which are looked at side by side.
+/// Finds, among many facets, the one that is nearest to a point: a tree of boxes, eight of which are looked at side by side.
 /// General R-trees keep a heap for each question, and take several times as long; optimisation asks millions.
 #[derive(Debug)]
-pub struct NearestFacet<F> {
-    /// The root first, if there are facets; each branch before what is below.
+pub(crate) struct NearestFacet<F> {
+    root: Below,
+    /// Each before what is below.
     branches: Vec<Branch>,
+    /// The first facet of each leaf, and how many facets there are.
+    leaves: Vec<u32>,
     /// In the order of the tree.
     facets: Vec<Numbered<F>>,
+    /// The cube around all.
+    cube: Cube,
     /// The greatest coordinate, either way.
     extent: f64,
 }
 
 /// Finds the nearest of many triangles.
-pub type NearestTriangle = NearestFacet<[Point; 3]>;
+pub(crate) type NearestTriangle = NearestFacet<[Point; 3]>;
 
 /// A facet, and its place in the order in which they were given.
 #[derive(Clone, Debug)]
-struct Numbered<F> {
-    facet: F,
+pub(crate) struct Numbered<F> {
+    pub(crate) facet: F,
     index: u32,
 }
 
-/// Four boxes. Where there are fewer the rest are infinitely far.
-#[derive(Clone, Copy, Debug)]
+/// Eight boxes. Where there are fewer the rest are infinitely far.
+#[derive(Clone, Debug)]
 struct Branch {
-    min: Rows,
-    max: Rows,
-    below: [Below; LANES],
+    boxes: Boxes,
+    below: [Below; SINGLES],
 }
 
-/// What is in a box.
+/// What is in a box: twice the place of a branch, or of a leaf and one.
 #[derive(Clone, Copy, Debug)]
-enum Below {
-    Branch(u32),
-    Facet(u32),
-}
+struct Below(u32);
 
-impl Branch {
-    /// How far `p` is from each of the boxes, squared.
+impl Below {
+    fn branch(place: usize) -> Self {
+        Self(2 * place as u32)
+    }
+
+    fn leaf(place: usize) -> Self {
+        Self(2 * place as u32 + 1)
+    }
+
+    /// Behind how far its box is. Distances are not negative: the lesser the distance, the lesser the number.
     #[inline(always)]
-    fn distances<S: Simd>(&self, simd: S, p: Vectors<S>) -> Row {
-        let (min, max) = (Vectors::load(simd, &self.min), Vectors::load(simd, &self.max));
-        let zero = f64x4::splat(simd, 0.0);
-        let (below, above) = (min - p, p - max);
-        let outside = |below: f64x4<S>, above: f64x4<S>| below.greater(above).greater(zero);
-        let gap = Vectors {
-            x: outside(below.x, above.x),
-            y: outside(below.y, above.y),
-            z: outside(below.z, above.z),
-        };
-        gap.dot(gap).to_array()
+    fn at(self, distance: f32) -> u64 {
+        u64::from(distance.to_bits()) << 32 | u64::from(self.0)
     }
 }
 
-/// The point of a facet that is closest to another, how far that is, squared, and the facet's place in the tree.
+/// The point of a facet that is closest to another, how far that is, squared, and the facet's place in the tree and among
+/// those that were given.
 struct Closest {
     distance: f64,
-    place: usize,
+    place: u32,
+    index: u32,
+    leaf: u32,
     point: Point,
 }
 
@@ -124,19 +154,19 @@ impl Closest {
 
 /// The facet that is nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearest {
+pub(crate) struct Nearest {
     /// Its place in the order in which the facets were given.
-    pub facet: usize,
+    pub(crate) facet: usize,
     /// Its point that is closest.
-    pub point: Point,
+    pub(crate) point: Point,
 }
 
 impl<F: Facet> NearestFacet<F> {
     /// An index of facets with finite corners.
     ///
     /// # Panics
-    /// If there are more than 2^32 facets.
-    pub fn new(facets: impl IntoIterator<Item = F>) -> Self {
+    /// If there are more than 2^31 facets.
+    pub(crate) fn new(facets: impl IntoIterator<Item = F>) -> Self {
         Self::within(facets, &Silent).expect("nobody stops it")
     }
 
@@ -147,111 +177,155 @@ impl<F: Facet> NearestFacet<F> {
     ///
     /// # Panics
     /// As [`new`](Self::new).
-    pub fn within(facets: impl IntoIterator<Item = F>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+    pub(crate) fn within(
+        facets: impl IntoIterator<Item = F>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let mut facets: Vec<Numbered<F>> = facets
             .into_iter()
             .enumerate()
-            .map(|(k, facet)| Numbered { facet, index: u32::try_from(k).expect("no more than 2^32 facets") })
+            .map(|(k, facet)| Numbered {
+                facet,
+                index: i32::try_from(k).expect("no more than 2^31 facets") as u32,
+            })
             .collect();
         let middle = |facet: &F| facet.corners().iter().sum::<Point>() / facet.corners().len() as f64;
         let mut order: Vec<Middle> =
             facets.iter().map(|of| Middle { index: of.index, at: middle(&of.facet) }).collect();
-        sort(&mut order, monitor)?;
+        sort(&mut order, F::TOGETHER, monitor)?;
         rearrange(&mut facets, order);
-        let mut all = Self { branches: Vec::with_capacity(facets.len() / 2), facets, extent: 0.0 };
-        if !all.facets.is_empty() {
-            let bounds = branch(&mut all.branches, &all.facets, 0..all.facets.len(), monitor)?;
-            all.extent = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let bounds = Aabb::around(facets.iter().flat_map(|of| of.facet.corners()));
+        let extent = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let (cube, branches, leaves) = (Cube::around(&bounds), Vec::new(), Vec::new());
+        let mut tree = Self { root: Below::branch(0), branches, leaves, facets, cube, extent };
+        (tree.root, _) = tree.add(0..tree.facets.len(), monitor)?;
+        tree.leaves.push(tree.facets.len() as u32);
+        Ok(tree)
+    }
+
+    /// Adds what is below the box around the facets at these places. That box too.
+    fn add(&mut self, places: Range<usize>, monitor: &dyn Monitor) -> Result<(Below, Aabb), Cancelled> {
+        if places.len() > MANY {
+            monitor.proceed()?;
         }
-        Ok(all)
+        if places.len() <= F::TOGETHER {
+            self.leaves.push(places.start as u32);
+            let bounds = Aabb::around(self.facets[places].iter().flat_map(|of| of.facet.corners()));
+            return Ok((Below::leaf(self.leaves.len() - 1), bounds));
+        }
+        let place = self.branches.len();
+        self.branches.push(Branch { boxes: Boxes::NONE, below: [Below::branch(place); SINGLES] });
+        let mut all = Aabb::EMPTY;
+        for (lane, part) in parts(places, F::TOGETHER).enumerate() {
+            let (below, bounds) = self.add(part, monitor)?;
+            let branch = &mut self.branches[place];
+            branch.below[lane] = below;
+            branch.boxes.set(lane, &self.cube, &bounds);
+            all = all.with(bounds.min).with(bounds.max);
+        }
+        Ok((Below::branch(place), all))
     }
 
     /// The facet that is nearest to `p`, the first of those that are equally near; `None` if there are no facets.
-    pub fn nearest(&self, p: Point) -> Option<Nearest> {
+    pub(crate) fn nearest(&self, p: Point) -> Option<Nearest> {
         self.found(p).map(|(numbered, point)| Nearest { facet: numbered.index as usize, point })
     }
 
     /// The same, as the facet itself.
-    pub fn nearest_facet(&self, p: Point) -> Option<&F> {
+    pub(crate) fn nearest_facet(&self, p: Point) -> Option<&F> {
         self.found(p).map(|(numbered, _)| &numbered.facet)
     }
 
     /// As [`nearest`](Self::nearest), of the facets whose distance, squared, is no greater than `most`.
-    pub fn nearest_within(&self, p: Point, most: f64) -> Option<Nearest> {
+    pub(crate) fn nearest_within(&self, p: Point, most: f64) -> Option<Nearest> {
         if self.facets.is_empty() {
             return None;
         }
-        let none = Closest { distance: most, place: NOWHERE, point: p };
-        let Closest { place, point, .. } = dispatch!(level(), simd => self.nearer(simd, none, p));
-        Some(Nearest { facet: self.facets.get(place)?.index as usize, point })
+        let Closest { place, index, point, .. } =
+            dispatch!(level(), simd => self.nearer(simd, NOWHERE, most, p));
+        (place != NOWHERE).then_some(Nearest { facet: index as usize, point })
     }
 
     /// Of all facets that with the least distance as it is computed, and of these the first.
     fn found(&self, p: Point) -> Option<(&Numbered<F>, Point)> {
-        let last_facet = self.facets.len().checked_sub(1)?;
-        // Two trees that share a place only spoil each other's beginning.
-        let memory = std::ptr::from_ref(self).addr() / align_of_val(self) % REMEMBERED;
-        let first = LAST.with(|last| last[memory].get() as usize).min(last_facet);
-        let first = self.closest(first, p);
-        let best = dispatch!(level(), simd => self.nearer(simd, first, p));
-        LAST.with(|last| last[memory].set(best.place as u32));
-        Some((&self.facets[best.place], best.point))
+        let last_leaf = self.leaves.len().checked_sub(2)? as u32;
+        if self.facets.is_empty() {
+            return None;
+        }
+        // Searches that share a place only spoil each other's beginning.
+        let tree = std::ptr::from_ref(self).addr() / align_of_val(self);
+        let memory = tree.wrapping_add(self.cube.part(p)) % REMEMBERED;
+        let first = LAST.with(|last| last[memory].get()).min(last_leaf);
+        let best = dispatch!(level(), simd => self.nearer(simd, first, f64::INFINITY, p));
+        LAST.with(|last| last[memory].set(best.leaf));
+        // There is none if no distance can be compared.
+        Some((self.facets.get(best.place as usize).unwrap_or(&self.facets[0]), best.point))
     }
 
-    /// The closest point, if it is no farther than the `best` so far.
+    /// The closest point, if it is no farther than so much, squared. Looks at the `first` leaf before all others.
     #[inline(always)]
-    fn nearer<S: Simd>(&self, simd: S, mut best: Closest, p: Point) -> Closest {
+    fn nearer<S: Simd>(&self, simd: S, first: u32, most: f64, p: Point) -> Closest {
         let rounding = ROUNDING * (self.extent + p.abs().max_element());
-        let mut limit = best.limit(rounding);
-        let at = Vectors::splat(simd, p);
-        let mut waiting = [(0.0, Below::Branch(0)); WAITING];
+        let mut best = Closest { distance: most, place: NOWHERE, index: NOWHERE, leaf: 0, point: p };
+        if first != NOWHERE {
+            self.look_at(simd, first, p, &mut best);
+        }
+        let mut limit = self.cube.limit(best.limit(rounding));
+        let at = self.cube.place(simd, p);
+        let mut waiting = [0; WAITING];
+        waiting[0] = self.root.at(0.0);
         let mut count = 1;
         while count > 0 {
             count -= 1;
-            let (distance, below) = waiting[count];
-            if distance > limit {
+            let next: u64 = waiting[count];
+            if f32::from_bits((next >> 32) as u32) > limit {
                 continue;
             }
-            match below {
-                Below::Branch(branch) => {
-                    let branch = &self.branches[branch as usize];
-                    let distances = branch.distances(simd, at);
-                    let first = count;
-                    for (distance, below) in distances.into_iter().zip(branch.below) {
-                        if distance <= limit {
-                            // The nearest last, which is looked at next.
-                            let mut place = count;
-                            while place > first && waiting[place - 1].0 < distance {
-                                waiting[place] = waiting[place - 1];
-                                place -= 1;
-                            }
-                            waiting[place] = (distance, below);
-                            count += 1;
-                        }
+            let place = next as u32 / 2;
+            if next.is_multiple_of(2) {
+                let Branch { boxes, below } = &self.branches[place as usize];
+                let (distances, mut found) = boxes.within(simd, &at, limit);
+                let lowest = count;
+                while found != 0 {
+                    let lane = found.trailing_zeros() as usize % SINGLES;
+                    found &= found - 1;
+                    let box_at = below[lane].at(distances[lane]);
+                    // The nearest last, which is looked at next.
+                    let mut place = count;
+                    while place > lowest && waiting[place - 1] < box_at {
+                        waiting[place] = waiting[place - 1];
+                        place -= 1;
                     }
+                    waiting[place] = box_at;
+                    count += 1;
                 }
-                Below::Facet(place) => {
-                    let (place, index) = (place as usize, self.facets[place as usize].index);
-                    let other = self.closest(place, p);
-                    let is_first = || self.facets.get(best.place).is_none_or(|best| index < best.index);
-                    if other.distance < best.distance || other.distance == best.distance && is_first() {
-                        limit = other.limit(rounding);
-                        best = other;
-                    }
-                }
+            } else if place != first && self.look_at(simd, place, p, &mut best) {
+                limit = self.cube.limit(best.limit(rounding));
             }
         }
         best
     }
 
-    /// The point of the facet at this place of the tree that is closest to `p`.
-    fn closest(&self, place: usize, p: Point) -> Closest {
-        let point = self.facets[place].facet.closest(p);
-        Closest { distance: point.distance_squared(p), place, point }
+    /// Takes the best facet of a leaf, if that is better. Was it?
+    #[inline(always)]
+    fn look_at<S: Simd>(&self, simd: S, leaf: u32, p: Point, best: &mut Closest) -> bool {
+        let [start, end] = [self.leaves[leaf as usize], self.leaves[leaf as usize + 1]];
+        let facets = &self.facets[start as usize..end as usize];
+        let (points, squared) = F::closest_of(simd, facets, p);
+        let mut is_better = false;
+        for (lane, numbered) in facets.iter().enumerate().take(LANES) {
+            let (distance, index) = (squared[lane], numbered.index);
+            if distance < best.distance || distance == best.distance && index < best.index {
+                let point = Point::new(points[0][lane], points[1][lane], points[2][lane]);
+                *best = Closest { distance, place: start + lane as u32, index, leaf, point };
+                is_better = true;
+            }
+        }
+        is_better
     }
 
     /// The point of a facet that is closest to `p`; `None` if there are no facets.
-    pub fn closest_point(&self, p: Point) -> Option<Point> {
+    pub(crate) fn closest_point(&self, p: Point) -> Option<Point> {
         self.nearest(p).map(|nearest| nearest.point)
     }
 }
@@ -263,20 +337,20 @@ struct Middle {
     index: u32,
 }
 
-/// Puts facets in the order of the tree.
-fn sort(facets: &mut [Middle], monitor: &dyn Monitor) -> Result<(), Cancelled> {
+/// Puts facets in the order of the tree, where some of them are looked at together.
+fn sort(facets: &mut [Middle], together: usize, monitor: &dyn Monitor) -> Result<(), Cancelled> {
     if facets.len() > MANY {
         monitor.proceed()?;
     }
-    if facets.len() > 1 {
+    if facets.len() > together {
         let size = Aabb::around(facets.iter().map(|f| &f.at)).size();
         let axis = (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest });
         let along = |a: &Middle, b: &Middle| a.at[axis].total_cmp(&b.at[axis]).then(a.index.cmp(&b.index));
         let [left, _] = halves(0..facets.len());
         facets.select_nth_unstable_by(left.end, along);
         let (left, right) = facets.split_at_mut(left.end);
-        sort(left, monitor)?;
-        sort(right, monitor)?;
+        sort(left, together, monitor)?;
+        sort(right, together, monitor)?;
     }
     Ok(())
 }
@@ -303,38 +377,14 @@ fn halves(places: Range<usize>) -> [Range<usize>; 2] {
     [places.start..middle, middle..places.end]
 }
 
-/// Adds a branch of the facets at these places, and all that is below it. The box around them.
-fn branch<F: Facet>(
-    branches: &mut Vec<Branch>,
-    facets: &[Numbered<F>],
-    places: Range<usize>,
-    monitor: &dyn Monitor,
-) -> Result<Aabb, Cancelled> {
-    if places.len() > MANY {
-        monitor.proceed()?;
-    }
-    let [left, right] = halves(places);
-    let [[a, b], [c, d]] = [halves(left), halves(right)];
-    let place = branches.len();
-    branches.push(Branch {
-        min: [[f64::INFINITY; LANES]; 3],
-        max: [[f64::NEG_INFINITY; LANES]; 3],
-        below: [Below::Branch(place as u32); LANES],
-    });
-    let mut all = Aabb::EMPTY;
-    for (lane, part) in [a, b, c, d].into_iter().filter(|part| !part.is_empty()).enumerate() {
-        let (below, bounds) = match part.len() {
-            1 => (Below::Facet(part.start as u32), Aabb::around(facets[part.start].facet.corners())),
-            _ => (Below::Branch(branches.len() as u32), branch(branches, facets, part, monitor)?),
-        };
-        let branch = &mut branches[place];
-        branch.below[lane] = below;
-        for axis in 0..3 {
-            (branch.min[axis][lane], branch.max[axis][lane]) = (bounds.min[axis], bounds.max[axis]);
-        }
-        all = all.with(bounds.min).with(bounds.max);
-    }
-    Ok(all)
+/// Places in eight parts, or fewer where some are looked at together.
+fn parts(places: Range<usize>, together: usize) -> impl Iterator<Item = Range<usize>> {
+    let split = move |part: Range<usize>| {
+        let [left, right] =
+            if part.len() > together { halves(part) } else { [part.clone(), part.end..part.end] };
+        [left, right].into_iter().filter(|part| !part.is_empty())
+    };
+    split(places).flat_map(split).flat_map(split)
 }
 
 #[cfg(test)]

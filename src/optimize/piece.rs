@@ -3,8 +3,11 @@
 //! Quads that are not flat are bilinear surfaces, as faces of hexes are and as templates divide them. All others are
 //! triangles.
 
+use fearless_simd::Simd;
+
+use crate::geometry::lanes::{LANES, Row, Rows};
 use crate::geometry::{
-    BilinearQuad, Facet, NearestFacet, NearestTriangle, Point, closest_on_triangle, triangulate,
+    BilinearQuad, Facet, NearestFacet, NearestTriangle, Numbered, Point, closest_on_triangle, triangulate,
 };
 
 /// Unit vectors whose difference is below this are one direction: far above rounding, far below what shows.
@@ -59,6 +62,8 @@ impl PatchFacet {
 }
 
 impl Facet for PatchFacet {
+    const TOGETHER: usize = 1;
+
     fn corners(&self) -> &[Point] {
         match self {
             Self::Triangle(corners) => corners,
@@ -71,6 +76,12 @@ impl Facet for PatchFacet {
             Self::Triangle(corners) => closest_on_triangle(p, *corners),
             Self::Quad(quad) => quad.point(quad.closest(p)),
         }
+    }
+
+    #[inline(always)]
+    fn closest_of<S: Simd>(_: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
+        let point = facets[0].facet.closest(p);
+        (point.to_array().map(|x| [x; LANES]), [point.distance_squared(p); LANES])
     }
 }
 

@@ -11,7 +11,7 @@ use super::energy::{Corners, Energy, Expansion, Weights};
 use super::problem::Problem;
 use super::symmetric::{Matrices, Symmetric};
 use crate::geometry::Point;
-use crate::geometry::lanes::{LANES, Number, Row, Rows, Vector, Vectors, level, sum};
+use crate::geometry::lanes::{LANES, Number, Row, Rows, Vectors, level, sum};
 use crate::mesh::numbering::hex::{CORNER_AT, NEIGHBOURS};
 use crate::mesh::quality::{Certainty, is_positive};
 
@@ -152,7 +152,7 @@ impl Star {
 /// Four cells with the node in some place.
 struct Placed<S: Simd> {
     /// From the ends of the spokes to the node, and the squares of their lengths.
-    arms: [Vectors<S>; 3],
+    arms: [Vectors<f64x4<S>>; 3],
     squares: [f64x4<S>; 3],
     weight: f64x4<S>,
     eps_squared: Option<f64x4<S>>,
@@ -160,7 +160,7 @@ struct Placed<S: Simd> {
 
 impl<S: Simd> Placed<S> {
     #[inline(always)]
-    fn new(simd: S, cells: &Cells, v: Vectors<S>, is_regularised: bool) -> Self {
+    fn new(simd: S, cells: &Cells, v: Vectors<f64x4<S>>, is_regularised: bool) -> Self {
         let arm = |i: usize| v - Vectors::load(simd, &cells.ends[i]);
         let arms = [arm(0), arm(1), arm(2)];
         Self {
@@ -173,7 +173,7 @@ impl<S: Simd> Placed<S> {
 
     /// The energies at the node's corners.
     #[inline(always)]
-    fn at_node(&self, slope: Vectors<S>, weights: Weights) -> (Energy<S>, f64x4<S>) {
+    fn at_node(&self, slope: Vectors<f64x4<S>>, weights: Weights) -> (Energy<S>, f64x4<S>) {
         let [a, b, c] = self.squares;
         let mean_square = (a + b + c) * (1.0 / 3.0);
         let corners = Corners {
@@ -192,7 +192,7 @@ impl<S: Simd> Placed<S> {
         simd: S,
         i: usize,
         beside: &Beside,
-        slope: Vectors<S>,
+        slope: Vectors<f64x4<S>>,
         weights: Weights,
     ) -> (Energy<S>, f64x4<S>) {
         let square = self.squares[i];
@@ -217,7 +217,7 @@ fn taken<S: Simd>(
     eps: &impl Fn(u32) -> f64,
     corner: &impl Fn(u32, u8) -> Point,
 ) -> f64 {
-    let v = Vectors::splat(simd, v);
+    let v = Vectors::splat(simd, v.to_array());
     let mut lengths = f64x4::splat(simd, 0.0);
     for (cells, four) in all.iter_mut().zip(uses.chunks(LANES)) {
         // What is left over of the last four is the first of these, without weight.
@@ -289,7 +289,7 @@ impl<S: Simd> Sums<S> {
 
 #[inline(always)]
 fn read<S: Simd>(simd: S, star: &Star, v: Point, weights: Weights, limit: f64) -> Option<Reading> {
-    let v = Vectors::splat(simd, v);
+    let v = Vectors::splat(simd, v.to_array());
     let mut sums = Sums::new(simd);
     let mut reading = Some(Reading { energy: 0.0, worst: 0.0 });
     for cells in star.used() {
@@ -306,11 +306,11 @@ fn read<S: Simd>(simd: S, star: &Star, v: Point, weights: Weights, limit: f64) -
 
 #[inline(always)]
 fn expanded<S: Simd>(simd: S, star: &Star, v: Point, weights: Weights) -> Option<(Expansion, f64)> {
-    let v = Vectors::splat(simd, v);
+    let v = Vectors::splat(simd, v.to_array());
     let n = weights.power();
     let zero = f64x4::splat(simd, 0.0);
     let mut sums = Sums::new(simd);
-    let mut gradient = Vectors::splat(simd, Point::ZERO);
+    let mut gradient = Vectors::splat(simd, [0.0; 3]);
     let mut hessian = Matrices::zero(simd);
     let mut diagonal = zero;
     for cells in star.used() {

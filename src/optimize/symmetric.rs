@@ -2,7 +2,7 @@
 
 use std::ops::{Add, AddAssign, Mul};
 
-use fearless_simd::Simd;
+use fearless_simd::{Simd, f64x4};
 
 use crate::geometry::Point;
 use crate::geometry::lanes::Vectors;
@@ -98,27 +98,27 @@ impl Mul<f64> for Symmetric {
 /// Sums of symmetric matrices, a sum a lane.
 #[derive(Clone, Copy)]
 pub(crate) struct Matrices<S: Simd> {
-    diagonal: Vectors<S>,
-    beside: Vectors<S>,
+    diagonal: Vectors<f64x4<S>>,
+    beside: Vectors<f64x4<S>>,
 }
 
 impl<S: Simd> Matrices<S> {
     #[inline(always)]
     pub(crate) fn zero(simd: S) -> Self {
-        let zero = Vectors::splat(simd, Point::ZERO);
+        let zero = Vectors::splat(simd, [0.0; 3]);
         Self { diagonal: zero, beside: zero }
     }
 
     /// Adds `v w^T`, which is to be symmetric.
     #[inline(always)]
-    pub(crate) fn add_product(&mut self, v: Vectors<S>, w: Vectors<S>) {
+    pub(crate) fn add_product(&mut self, v: Vectors<f64x4<S>>, w: Vectors<f64x4<S>>) {
         self.diagonal += Vectors { x: v.x * w.x, y: v.y * w.y, z: v.z * w.z };
         self.beside += Vectors { x: v.y * w.z, y: v.x * w.z, z: v.x * w.y };
     }
 
     /// Adds `v w^T + w v^T`.
     #[inline(always)]
-    pub(crate) fn add_mixed(&mut self, v: Vectors<S>, w: Vectors<S>) {
+    pub(crate) fn add_mixed(&mut self, v: Vectors<f64x4<S>>, w: Vectors<f64x4<S>>) {
         let both = v + v;
         self.diagonal += Vectors { x: both.x * w.x, y: both.y * w.y, z: both.z * w.z };
         self.beside +=

@@ -39,8 +39,8 @@ pub(super) struct Holds<'a> {
     pub(super) target: &'a dyn Target,
     pub(super) anchors: &'a [Anchor],
     pub(super) holds: Vec<Hold>,
-    /// Where on its curve a node is drawn, if that is not its foot.
-    pub(super) places: Vec<Option<Point>>,
+    /// Where on its curve a node is drawn, if that is not its foot; empty where that is so of all.
+    places: Vec<Option<Point>>,
     /// How long the leashes are, in model units, by node, ascending.
     leashes: Vec<(NodeId, f64)>,
     /// Of the pull, where lengths are in units of the node's mean edge.
@@ -63,7 +63,7 @@ impl<'a> Holds<'a> {
 
     /// With the holds given.
     pub(super) fn of(target: &'a dyn Target, anchors: &'a [Anchor], holds: Vec<Hold>) -> Self {
-        let (places, leashes) = (vec![None; holds.len()], Vec::new());
+        let (places, leashes) = (Vec::new(), Vec::new());
         Self { target, anchors, places, leashes, holds, weight: 0.0, surfaces: 1.0 }
     }
 
@@ -95,6 +95,17 @@ impl<'a> Holds<'a> {
     pub(super) fn leash_of(&self, node: NodeId) -> f64 {
         let place = self.leashes.binary_search_by_key(&node, |&(node, _)| node);
         place.map_or(0.0, |place| self.leashes[place].1)
+    }
+
+    /// Where on its curve a node is drawn, if that is not its foot.
+    pub(super) fn place(&self, node: NodeId) -> Option<Point> {
+        self.places.get(node.index()).copied().flatten()
+    }
+
+    /// Draws a node to a place on its curve.
+    pub(super) fn draw_to(&mut self, node: NodeId, place: Point) {
+        self.places.resize(self.holds.len(), None);
+        self.places[node.index()] = Some(place);
     }
 
     pub(super) fn is(&self, node: NodeId, hold: Hold) -> bool {
@@ -153,7 +164,7 @@ impl Guide for Holds<'_> {
         let anchor = self.anchors[node.index()];
         let foot = self.target.foot(anchor, p)?;
         let along = Symmetric::outer(foot.direction);
-        let place = self.places[node.index()];
+        let place = self.place(node);
         let shape = match (anchor, place) {
             (Anchor::Surface(_), _) => (along + Symmetric::IDENTITY * TO_THE_FOOT) * self.surfaces,
             (Anchor::Curve(_), None) => Symmetric::IDENTITY * (1.0 + TO_THE_FOOT) + along * -1.0,

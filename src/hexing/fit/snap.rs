@@ -70,7 +70,7 @@ fn round(
                     let keeps = |after| after <= worst_kept(before, least) || *to == from;
                     after.is_some_and(keeps) && star.stays_positive(*to)
                 };
-                holds.places[id.index()].filter(&mut is_kept).or_else(|| foot().filter(&mut is_kept))
+                holds.place(id).filter(&mut is_kept).or_else(|| foot().filter(&mut is_kept))
             });
             for (&node, to) in batch.iter().zip(feet) {
                 if let Some(to) = to {

@@ -142,7 +142,7 @@ pub(super) fn spread(chains: &[Chain], holds: &mut Holds, at: impl Fn(NodeId) ->
         for (n, place) in chain.nodes.iter().zip(places) {
             if matches!(holds.anchors[n.index()], Anchor::Curve(_)) {
                 let place = if place > length { place - length } else { place };
-                holds.places[n.index()] = Some(solid.point_on_curve(chain.curve, place));
+                holds.draw_to(*n, solid.point_on_curve(chain.curve, place));
             }
         }
     }

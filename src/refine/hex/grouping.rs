@@ -2,16 +2,18 @@
 //! by two, whole blocks are refined instead: each around a node with eight hexes and six edges, next to each other in
 //! lattices, so that they have whole faces in common.
 
-use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::{FACES, NEIGHBOURS};
-use crate::mesh::topology::{Bins, HexFaces, Side, hex_of};
+use crate::mesh::topology::{Bins, HexFaces, Side, hex_of, side_nodes};
+use crate::mesh::{FaceId, NodeId};
 use crate::monitor::batches;
 use crate::{Cancelled, Monitor, parallel};
 
 /// The hexes of a mesh, with what walking from block to block takes.
 pub(super) struct Grouping<'a> {
     hexes: &'a [[NodeId; 8]],
-    faces: HexFaces,
+    /// The faces of each hex, and the sides of each face.
+    faces: Vec<[FaceId; 6]>,
+    sides: Bins,
     /// The uses of each node: eight times a hex, and the corner there.
     uses: Bins,
     /// Has the node eight hexes, and four at each of its edges?
@@ -39,11 +41,11 @@ impl<'a> Grouping<'a> {
         hexes: &'a [[NodeId; 8]],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let faces = HexFaces::within(node_count, hexes, monitor)?;
+        let (faces, sides) = HexFaces::within(node_count, hexes, monitor)?.into_sides();
         let node = |k: usize| hexes[k / 8][k % 8].index();
         let uses = Bins::monitored(node_count, 8 * hexes.len(), node, monitor)?;
         let is_regular = parallel::try_collect(node_count, monitor, |node| is_regular(hexes, uses.at(node)))?;
-        Ok(Self { hexes, faces, uses, is_regular })
+        Ok(Self { hexes, faces, sides, uses, is_regular })
     }
 
     /// The hexes that share a node with one of these, or are one, ascending.
@@ -171,13 +173,17 @@ impl<'a> Grouping<'a> {
             let has_k_alone = |face: &[u8; 4]| face.contains(&k) && !face.contains(&(corner as u8));
             let across =
                 FACES.iter().position(has_k_alone).expect("each corner has a face away from each other");
-            let face = self.faces.of_hex[hex][across];
+            let face = self.faces[hex][across];
             let other = |&&side: &&Side| hex_of(side).index() != hex;
-            let beyond = hex_of(*self.faces.sides(face).iter().find(other)?).index();
+            let beyond = hex_of(*self.sides.at(face.index()).iter().find(other)?).index();
             let nodes = &self.hexes[beyond];
             let entered = nodes.iter().position(|&n| n == self.hexes[hex][usize::from(k)])?;
             let ends = NEIGHBOURS[entered].map(|k| nodes[usize::from(k)]);
-            Some((beyond, ends.into_iter().find(|end| !self.faces.nodes[face.index()].contains(end))?))
+            Some((
+                beyond,
+                ends.into_iter()
+                    .find(|end| !side_nodes(self.hexes, self.sides.at(face.index())[0]).contains(end))?,
+            ))
         })
     }
 }

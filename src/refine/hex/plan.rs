@@ -244,8 +244,20 @@ impl<'a> HexPlan<'a> {
         {
             return Ok(());
         }
-        let mesh = StageMesh::of_mesh(&self.input, monitor)?;
-        let mut joined = joining(&mesh, base.is_refined, monitor)?;
+        // A copy of the input would be a good part of what all of this takes.
+        let mesh = StageMesh::taken_from(&mut self.input, monitor)?;
+        let grouped = self.group_in(&mesh, trees, monitor);
+        mesh.give_back(&mut self.input);
+        grouped
+    }
+
+    fn group_in(
+        &mut self,
+        mesh: &StageMesh,
+        trees: &mut Trees,
+        monitor: &dyn Monitor,
+    ) -> Result<(), HexRefineError> {
+        let mut joined = joining(mesh, trees.level(0).is_refined, monitor)?;
         if matches!(joined, Joining::Possible) {
             return Ok(());
         }
@@ -275,7 +287,7 @@ impl<'a> HexPlan<'a> {
                     self.refine_unasked(trees, &rest, monitor)?;
                 }
             }
-            joined = joined_around(&mesh, &grouping, trees.level(0), monitor)?;
+            joined = joined_around(mesh, &grouping, trees.level(0), monitor)?;
         }
     }
 

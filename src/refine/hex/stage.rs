@@ -86,6 +86,19 @@ impl StageMesh {
         Ok(Self { labels, materials, ..Self::of_input(mesh.positions.clone(), mesh.hexes.clone()) })
     }
 
+    /// The same, with the positions and the hexes of the mesh, which get back there by [`StageMesh::give_back`].
+    pub(super) fn taken_from(mesh: &mut HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let labels = labels::of_mesh(mesh);
+        let materials = materials_of(mesh, &labels, monitor)?;
+        let (positions, hexes) = (std::mem::take(&mut mesh.positions), std::mem::take(&mut mesh.hexes));
+        Ok(Self { labels, materials, ..Self::of_input(positions, hexes) })
+    }
+
+    /// Gives back what was taken from a mesh.
+    pub(super) fn give_back(self, mesh: &mut HexMesh) {
+        (mesh.positions, mesh.hexes) = (self.positions, self.hexes);
+    }
+
     /// The material of a hex.
     pub(super) fn material(&self, hex: HexId) -> u32 {
         self.materials.get(self.root[hex.index()] as usize).copied().unwrap_or(0)
