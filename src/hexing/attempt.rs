@@ -97,7 +97,7 @@ pub(super) fn attempt(
     if !came.inverted.is_empty() {
         return Err(HexingError::Tangled(came.inverted.len()));
     }
-    let (distance, far) = distances(&mesh, solid, tolerance(options, site.taste), monitor)?;
+    let (distance, far) = distances(&mesh, solid, tolerance(site, plan.kind), monitor)?;
     report.mesh = Some(MeshedReport {
         sheets: SheetCounts::new(&sheets, came),
         fit: FitCounts::new(came, 0),

@@ -4,14 +4,18 @@ use super::background::{Background, Failure, OctreeMesh};
 use super::core::Core;
 use super::correspondence::{CurveFate, LostCurve, LostSurface, Reason, Reduction};
 use super::ground::Site;
-use super::merit::Taste;
-use super::options::HexingOptions;
 use crate::geometry::{Aabb, BoxIndex, Point};
+
+/// Unless a sweep follows its walls, mesh and solid are near enough within this share of the solid's diagonal, however small
+/// the cells are.
+const NEAR: f64 = 0.003;
 
 /// How far mesh and solid may be from each other before smaller cells are tried: beyond that a feature is not shown that
 /// these may show.
-pub(super) fn tolerance(options: &HexingOptions, taste: Taste) -> f64 {
-    options.max_distance.unwrap_or(taste.near * options.edge_length)
+pub(super) fn tolerance(site: &Site<'_>, kind: Background) -> f64 {
+    let of_edge = site.taste.near * site.options.edge_length;
+    let of_solid = if kind == Background::Swept { 0.0 } else { NEAR * site.solid.diagonal() };
+    site.options.max_distance.unwrap_or(of_edge.max(of_solid))
 }
 
 /// A closed curve needs so many edges to be routed.
@@ -113,6 +117,21 @@ mod tests {
         let core = Core { mesh: HexMesh::default(), cells: Vec::new(), report, lost: Vec::new() };
         let cells = FineCells { index: BoxIndex::new(std::iter::empty()), levels: Vec::new() };
         misses(&site, Background::Grid, &core, &reduction, Vec::new(), &cells).len()
+    }
+
+    /// Of a cube whose diagonal is 13.86.
+    #[test]
+    fn of_small_cells_it_is_the_size_of_the_solid_that_tells_what_is_near() {
+        let solid = solid(&cuboid([8, 8, 8]));
+        let told = |edge_length: f64, max_distance: Option<f64>, kind: Background| {
+            let options = HexingOptions { edge_length, max_distance, ..HexingOptions::default() };
+            let site = Site::new(&solid, &options, &Silent).unwrap();
+            tolerance(&site, kind) / solid.diagonal()
+        };
+        let of_edges = [1.0, 0.1].map(|edge| told(edge, None, Background::Swept));
+        assert!(of_edges[0] > NEAR && (of_edges[1] - 0.1 * of_edges[0]).abs() < 1e-12, "{of_edges:?}");
+        assert_eq!([1.0, 0.1].map(|edge| told(edge, None, Background::Grid)), [of_edges[0], NEAR]);
+        assert!((told(0.1, Some(0.01), Background::Grid) * solid.diagonal() - 0.01).abs() < 1e-12);
     }
 
     /// Cells are a quarter of an edge at the finest.

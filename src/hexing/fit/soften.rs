@@ -6,8 +6,8 @@
 //! 1. the curve at each that is missed least is given up: its nodes slide on the surface from now on;
 //! 2. the cells around are smoothed, with many sweeps, since they are few; from the second time on those where a curve was
 //!    given up, and the worst alone. Nodes that are off the solid come no farther from where they belong;
-//! 3. nodes of poor cells that are off the solid may go a little farther, and on free forms those that belong on other soft
-//!    curves, and their corners, may leave them.
+//! 3. nodes of poor cells that are off the solid may go a little farther, and those that belong on curves that are noise may
+//!    leave these. On free forms all nodes of poor cells may leave the surface: no curve tells what has to be where.
 
 use std::collections::BTreeSet;
 
@@ -38,6 +38,9 @@ const NOISE: f64 = 2.0;
 
 /// A node that is nearer to where it belongs than this share of an edge has not left it.
 const THERE: f64 = 1e-6;
+
+/// On free forms nodes may be so many edges from where they belong for the sake of cells.
+const LEAVE_FORM: f64 = 0.3;
 
 /// Where no curve is left, cells are smoothed as long as that raises the worst by this.
 const ENOUGH: f64 = 0.002;
@@ -92,8 +95,9 @@ pub(super) fn soften(
         let mut guide = Holds::kept(&target, &on.anchors, holds, &mesh.positions);
         let leaving = leaving(mesh, on, holds, &low, solid);
         for &n in &leaving {
+            let leave = if solid.is_free_form() { LEAVE_FORM } else { LEAVE };
             // The boundary cuts across between its nodes, too.
-            let length = (0.5 * max_distance).min(LEAVE * problem.edge(problem.local(n)));
+            let length = (0.5 * max_distance).min(leave * problem.edge(problem.local(n)));
             guide.leash(n, length.max(guide.leash_of(n)));
         }
         let part = Part { whole: monitor, stage: FITTING, range: [part(round), part(round + 1)] };
@@ -132,7 +136,8 @@ fn mendable(
     (low, curves)
 }
 
-/// The nodes of these hexes that are off the solid, and of what nobody drew those that belong on curves and corners.
+/// The nodes of these hexes that are off the solid, those on curves and corners that nobody drew, and of free forms those on
+/// surfaces.
 fn leaving(
     mesh: &HexMesh,
     on: &Correspondence,
@@ -147,7 +152,9 @@ fn leaving(
             let curves = curves_at(n, on, solid);
             !curves.is_empty() && curves.into_iter().all(|curve| is_noise(solid, curve, size))
         };
-        let leaves = |&n: &NodeId| holds[n.index()].is_off() || is_on_noise(n);
+        let is_on_form =
+            |n: NodeId| solid.is_free_form() && matches!(on.anchors[n.index()], Anchor::Surface(_));
+        let leaves = |&n: &NodeId| holds[n.index()].is_off() || is_on_noise(n) || is_on_form(n);
         leaving.extend(hex.iter().copied().filter(leaves));
     }
     leaving.sort_unstable();
@@ -207,6 +214,7 @@ fn least_missed(hex: &[NodeId; 8], size: f64, on: &Correspondence, solid: &Solid
 mod tests {
     use super::*;
     use crate::Silent;
+    use crate::geometry::Aabb;
     use crate::hexing::correspondence::correspond;
     use crate::mesh::{GridOptions, PolygonMesh, hex_grid};
     use crate::solid::testing::{moved, voxels};
@@ -254,6 +262,38 @@ mod tests {
         assert!(soften(&mut mesh, &mut on, &mut holds, &solid, unbounded, &Silent).unwrap() > 0);
         assert!(worst(&mesh) > POOR);
         assert_eq!(on.reduction.count(CurveFate::Captured), curves);
+    }
+
+    /// Where the corners of a cube were on a ball its cells are poor as long as their nodes are on it.
+    #[test]
+    fn nodes_leave_free_forms_for_the_sake_of_cells() {
+        let round = |p: Point| {
+            let v = p - 4.0;
+            Point::splat(4.0) + v.normalize_or_zero() * v.abs().max_element()
+        };
+        let solid = crate::solid::testing::solid(&moved(voxels([8, 8, 8], |_| true), round));
+        assert!(solid.is_free_form());
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: true, max_hexes: 1000 };
+        let softened = |max_distance: f64| {
+            let bounds = Aabb { min: Point::ZERO, max: Point::splat(8.0) };
+            let mut mesh = hex_grid(bounds, &options).unwrap();
+            mesh.positions.iter_mut().for_each(|p| *p = round(*p));
+            let mut on = correspond(&mesh, &solid, &Silent).unwrap();
+            let hold = |anchor: &Anchor| if *anchor == Anchor::Inside { Hold::Free } else { Hold::Held };
+            let mut holds: Vec<Hold> = on.anchors.iter().map(hold).collect();
+            soften(&mut mesh, &mut on, &mut holds, &solid, max_distance, &Silent).unwrap();
+            let off = |n: usize| solid.nearest(mesh.positions[n]).distance;
+            let boundary = (0..holds.len()).filter(|&n| on.anchors[n] != Anchor::Inside);
+            let farthest = boundary.clone().map(off).fold(0.0, f64::max);
+            assert!(boundary.clone().all(|n| holds[n] == Hold::Leashed || off(n) < 1e-9));
+            let jacobian = |hex: &[NodeId; 8]| scaled_jacobian(&hex.map(|n| mesh.positions[n.index()]));
+            (mesh.hexes.iter().map(jacobian).fold(1.0, f64::min), farthest)
+        };
+        let (on_it, _) = softened(0.0);
+        let (near_it, little) = softened(0.1);
+        let (freely, far) = softened(f64::INFINITY);
+        assert!(on_it < near_it && near_it < freely, "{on_it} {near_it} {freely}");
+        assert!(little <= 0.05 + 1e-9 && 0.05 < far && far < 1.1 * LEAVE_FORM, "{little} {far}");
     }
 
     /// The foot of a dome is a soft curve: hexes there are mended whether they are the worst or not.
