@@ -2,7 +2,7 @@
 //!
 //! - [`grid`]: a grid along the solid's own axes whose lines stand in its planar surfaces.
 //! - [`Sweep`]: the quads of its principal face, layer by layer along a direction.
-//! - [`octree`]: a grid, refined where the solid or the user wants smaller cells; [`refined`] does so with any.
+//! - [`octree`]: a grid, refined where the solid or the user wants smaller cells; a sweep is refined so too.
 //! - [`choose`] tells which background suits a solid; [`retry`] what to refine where one failed.
 
 mod choose;
@@ -21,5 +21,6 @@ mod touched;
 pub use choose::{Background, Choice, SweptScore, choose, grid_capture, may_sweep};
 pub use drivers::{Failure, Missed, Retry, retry};
 pub use grid::{AlignedGrid, BackgroundError, check_size, estimate_hexes, grid};
-pub use octree::{Octree, OctreeMesh, Wanted, octree, refined};
+pub(super) use octree::refined;
+pub use octree::{Octree, OctreeMesh, Wanted, octree};
 pub use swept::{Sweep, SweepError};

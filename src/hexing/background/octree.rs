@@ -73,11 +73,8 @@ pub fn octree(
     refined_in(mesh, Some(blocks), regions, wanted.boundary_level, max_hexes, monitor)
 }
 
-/// Refines any background whose edges are about `edge_length` long, to no more than `max_hexes`.
-///
-/// # Errors
-/// See [`BackgroundError`].
-pub fn refined(
+/// Refines a background whose edges are about `edge_length` long, to no more than `max_hexes`: a conforming mesh.
+pub(in super::super) fn refined(
     background: HexMesh,
     solid: &SolidModel,
     edge_length: f64,
@@ -104,15 +101,12 @@ fn refined_in(
     }
     let halved = HexOptions { regions, max_hexes, ..HexOptions::default() };
     let thirds = HexOptions { method: Method::Three, ..halved.clone() };
-    let in_halves = match &blocks {
-        Some(blocks) => HexPlan::of_blocks(&background, blocks, &halved, monitor),
-        None => HexPlan::new(&background, &halved, monitor),
-    };
+    let in_halves = HexPlan::of_conforming(&background, blocks.as_ref(), &halved, monitor);
     let plan = match in_halves {
         Ok(plan) if plan.tree_hexes() < 8 * background.hexes.len() => plan,
         // All of the boundary is wanted finer, in halves.
         plan if boundary_level > 0 => plan?,
-        plan => fewest(plan, HexPlan::new(&background, &thirds, monitor))?,
+        plan => fewest(plan, HexPlan::of_conforming(&background, None, &thirds, monitor))?,
     };
     let refined = plan.carry_out(monitor)?;
     Ok(OctreeMesh { mesh: refined.mesh, level: refined.level })

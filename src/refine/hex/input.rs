@@ -7,7 +7,7 @@ use super::sheets::materials_of;
 use crate::geometry::Point;
 use crate::mesh::check::{Defect, summary};
 use crate::mesh::numbering::hex::EDGES;
-use crate::mesh::quality::{Certainty, is_positive};
+use crate::mesh::quality::four;
 use crate::mesh::topology::{HexFaces, Side, hex_of};
 use crate::mesh::{
     FaceId, HexId, HexMesh, NodeId, QuadMesh, check_hexes_within, first_of_same, orient_hexes,
@@ -43,17 +43,32 @@ pub(super) fn oriented(input: &HexMesh, monitor: &dyn Monitor) -> Result<(HexMes
         return Err(HexRefineError::InvalidInput(kinds));
     }
     monitor.checkpoint(INPUT, 0.8)?;
-    let is_doubtful = |h: usize| {
-        let corners = mesh.hexes[h].map(|n| mesh.positions[n.index()]);
-        is_positive(&corners) != Certainty::Positive
-    };
-    let doubtful = parallel::try_filter(mesh.hexes.len(), monitor, is_doubtful)?;
-    if !doubtful.is_empty() {
-        return Err(HexRefineError::NotPositive(doubtful.into_iter().map(HexId).collect()));
-    }
+    refuse_doubtful(&mesh, monitor)?;
     drop_unused_nodes(&mut mesh);
     monitor.checkpoint(INPUT, 1.0)?;
     Ok((mesh, turned))
+}
+
+/// The same of a mesh that was made here: it conforms, its hexes are turned the right way, and all of its nodes are used.
+pub(super) fn conforming(input: &HexMesh, monitor: &dyn Monitor) -> Result<HexMesh, HexRefineError> {
+    debug_assert_eq!(check_hexes_within(input, monitor)?, [], "it conforms");
+    if input.hexes.is_empty() {
+        return Err(HexRefineError::NoHexes);
+    }
+    monitor.checkpoint(INPUT, 0.0)?;
+    refuse_extent(input, monitor)?;
+    refuse_doubtful(input, monitor)?;
+    monitor.checkpoint(INPUT, 1.0)?;
+    Ok(input.clone())
+}
+
+/// Refuses hexes that are not certainly positive inside.
+fn refuse_doubtful(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
+    let corners = |h: usize| mesh.hexes[h].map(|n| mesh.positions[n.index()]);
+    let positive = four::are_positive(mesh.hexes.len(), monitor, corners)?;
+    let doubtful = (0..positive.len()).filter(|&h| !positive[h]).map(HexId::new);
+    let doubtful: Vec<HexId> = doubtful.collect();
+    if doubtful.is_empty() { Ok(()) } else { Err(HexRefineError::NotPositive(doubtful)) }
 }
 
 /// Refuses coordinates that hexes cannot be reckoned with. What is not finite is told with the other defects.

@@ -90,9 +90,7 @@ impl<'a> HexPlan<'a> {
         options: &'a HexOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
-        let mut refinement = HexRefinement::new(input, options, monitor)?;
-        while refinement.advance(None, monitor)? {}
-        refinement.plan(monitor)
+        Self::decided(HexRefinement::new(input, options, monitor)?, None, monitor)
     }
 
     /// As [`HexPlan::new`], where the hexes of the input stand in blocks: whole ones are refined, so that hexes away from
@@ -115,10 +113,28 @@ impl<'a> HexPlan<'a> {
             [count; 2],
             "a block and an octant for each hex"
         );
-        let mut refinement = HexRefinement::new(input, options, monitor)?;
+        Self::decided(HexRefinement::new(input, options, monitor)?, Some(blocks), monitor)
+    }
+
+    /// As [`HexPlan::new`] and [`HexPlan::of_blocks`], for a mesh that was made here: it conforms, its hexes are turned the
+    /// right way, and all of its nodes are used. That takes a part of what looking at any mesh does.
+    pub(crate) fn of_conforming(
+        input: &HexMesh,
+        blocks: Option<&'a HexBlocks>,
+        options: &'a HexOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, HexRefineError> {
+        Self::decided(HexRefinement::of_conforming(input, options, monitor)?, blocks, monitor)
+    }
+
+    fn decided(
+        mut refinement: HexRefinement<'a>,
+        blocks: Option<&'a HexBlocks>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, HexRefineError> {
         while refinement.advance(None, monitor)? {}
         let (plan, trees) = refinement.unsettled(monitor)?;
-        Self { blocks: Some(blocks), ..plan }.settled(trees, monitor)
+        Self { blocks, ..plan }.settled(trees, monitor)
     }
 
     /// Nothing to be refined yet.

@@ -1,6 +1,6 @@
 //! What is to be refined, decided level by level, by the options and by a caller's size function.
 
-use super::input::{coincident_nodes, longest_edge, longest_edge_of, oriented};
+use super::input::{coincident_nodes, conforming, longest_edge, longest_edge_of, oriented};
 use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size, validate};
 use super::plan::{Decided, HexPlan};
 use super::trees::Trees;
@@ -68,6 +68,29 @@ impl<'a> HexRefinement<'a> {
     ) -> Result<Self, HexRefineError> {
         validate(options)?;
         let (input, turned) = oriented(input, monitor)?;
+        Self::of_oriented(input, turned, options, monitor)
+    }
+
+    /// The same for a mesh that was made here: it conforms, its hexes are turned the right way, and all of its nodes are
+    /// used.
+    ///
+    /// # Errors
+    /// If a hex is not positive, an option is out of range, or the monitor stops it.
+    pub(super) fn of_conforming(
+        input: &HexMesh,
+        options: &'a HexOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, HexRefineError> {
+        validate(options)?;
+        Self::of_oriented(conforming(input, monitor)?, 0, options, monitor)
+    }
+
+    fn of_oriented(
+        input: HexMesh,
+        turned: usize,
+        options: &'a HexOptions,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, HexRefineError> {
         let &HexOptions { edge_length, gradation, ref regions, .. } = options;
         let sizes = SizeOptions { edge_length, curvature: None, gradation, regions };
         let field = SizeField::of_hexes(&input, sizes)?;
