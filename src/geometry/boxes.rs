@@ -61,7 +61,7 @@ impl Cube {
 
     #[inline(always)]
     pub(super) fn place<S: Simd>(&self, simd: S, p: Point) -> Place<S> {
-        let [low, high] = [self.low(p), self.high(p)];
+        let [low, high] = [-1.0, 1.0].map(|side| self.rounded(p, side));
         Place { low: Vectors::splat(simd, low), high: Vectors::splat(simd, high) }
     }
 
@@ -71,17 +71,15 @@ impl Cube {
         (limit as f32 + f32::MIN_POSITIVE).min(f32::MAX)
     }
 
-    #[inline(always)]
-    fn low(&self, p: Point) -> [f32; 3] {
-        self.share(p).map(|x| ((x - self.slack) as f32).next_down())
+    /// What no coordinate of a point is below, as a share, or above, where `side` is 1 for -1.
+    fn rounded(&self, p: Point, side: f64) -> [f32; 3] {
+        self.share(p).map(|x| {
+            let x = (x + side * self.slack) as f32;
+            // More than rounding to single precision takes from a number, or gives it.
+            x + side as f32 * (x.abs() * f32::EPSILON + f32::MIN_POSITIVE)
+        })
     }
 
-    #[inline(always)]
-    fn high(&self, p: Point) -> [f32; 3] {
-        self.share(p).map(|x| ((x + self.slack) as f32).next_up())
-    }
-
-    #[inline(always)]
     fn share(&self, p: Point) -> [f64; 3] {
         ((p - self.center) * self.scale).to_array().map(|x| x.clamp(-FAR, FAR))
     }
@@ -93,7 +91,7 @@ impl Boxes {
         Self { min: [[f32::INFINITY; SINGLES]; 3], max: [[f32::NEG_INFINITY; SINGLES]; 3] };
 
     pub(super) fn set(&mut self, lane: usize, cube: &Cube, bounds: &Aabb) {
-        let (min, max) = (cube.low(bounds.min), cube.high(bounds.max));
+        let (min, max) = (cube.rounded(bounds.min, -1.0), cube.rounded(bounds.max, 1.0));
         for axis in 0..3 {
             (self.min[axis][lane], self.max[axis][lane]) = (min[axis], max[axis]);
         }

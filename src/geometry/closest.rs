@@ -62,8 +62,8 @@ pub fn closest_on_triangle(p: Point, corners: [Point; 3]) -> Point {
     corners[0] * wa + corners[1] * wb + corners[2] * wc
 }
 
-/// The points of four triangles that are closest to `p`, and how far they are from it, squared: to the bit what
-/// [`closest_on_triangle`] tells of each.
+/// The points of four triangles that are closest to `p`, and how far they are from it, squared: as [`closest_on_triangle`]
+/// tells, to the bit but for the sign of zero.
 #[inline(always)]
 pub(crate) fn closest_on_four<S: Simd>(
     simd: S,
@@ -79,36 +79,21 @@ pub(crate) fn closest_on_four<S: Simd>(
     let wc = ab.cross(ap).dot(normal);
     let wa = area - wb - wc;
     let is_over = !needle & wa.simd_ge(0.0) & wb.simd_ge(0.0) & wc.simd_ge(0.0);
-    let mut weights = (one, zero, zero);
-    if !is_over.all_true() {
-        let mut nearest = f64x4::splat(simd, f64::INFINITY);
-        for (side, (beyond, from, to)) in [(wc, a, b), (wa, b, c), (wb, c, a)].into_iter().enumerate() {
-            let along = to - from;
-            let squared = along.length_squared();
-            let share = ((p - from).dot(along) / squared).greater(zero).lesser(one);
-            let t = squared.simd_gt(0.0).select(share, zero);
-            let (of_from, of_to) = (one - t, t);
-            let distance = (p - (from * of_from + to * of_to)).length_squared();
-            let is_nearest = (beyond.simd_lt(0.0) | needle) & distance.simd_lt(nearest);
-            nearest = is_nearest.select(distance, nearest);
-            let (wa, wb, wc) = match side {
-                0 => (of_from, of_to, zero),
-                1 => (zero, of_from, of_to),
-                _ => (of_to, zero, of_from),
-            };
-            weights = (
-                is_nearest.select(wa, weights.0),
-                is_nearest.select(wb, weights.1),
-                is_nearest.select(wc, weights.2),
-            );
-        }
+    let (over_b, over_c) = (wb / area, wc / area);
+    let point = a * (one - over_b - over_c).greater(zero) + b * over_b + c * over_c;
+    let is_beyond = !is_over;
+    let mut best = (point, is_over.select((p - point).length_squared(), f64x4::splat(simd, f64::INFINITY)));
+    for (beyond, from, to) in [(wc, a, b), (wa, b, c), (wb, c, a)] {
+        let along = to - from;
+        let squared = along.length_squared();
+        let share = ((p - from).dot(along) / squared).greater(zero).lesser(one);
+        let t = squared.simd_gt(0.0).select(share, zero);
+        let point = from * (one - t) + to * t;
+        let distance = (p - point).length_squared();
+        let is_nearer = is_beyond & (beyond.simd_lt(0.0) | needle) & distance.simd_lt(best.1);
+        best = (best.0.replaced(is_nearer, point), is_nearer.select(distance, best.1));
     }
-    let (wb, wc) = (wb / area, wc / area);
-    let wa = (one - wb - wc).greater(zero);
-    let point = a * is_over.select(wa, weights.0)
-        + b * is_over.select(wb, weights.1)
-        + c * is_over.select(wc, weights.2);
-    (point, (point - p).length_squared())
+    best
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::ops::{Add, AddAssign, Mul, Sub};
 use std::sync::OnceLock;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, f32x8, f64x4};
+use fearless_simd::{Level, Simd, f32x8, f64x4, mask64x4};
 
 use super::Point;
 
@@ -219,6 +219,16 @@ impl<S: Simd> Vectors<f64x4<S>> {
     #[inline(always)]
     pub(crate) fn sum(self) -> Point {
         Point::new(sum(self.x), sum(self.y), sum(self.z))
+    }
+
+    /// Those of `other` where the mask is set, these elsewhere.
+    #[inline(always)]
+    pub(crate) fn replaced(self, mask: mask64x4<S>, other: Self) -> Self {
+        Self {
+            x: mask.select(other.x, self.x),
+            y: mask.select(other.y, self.y),
+            z: mask.select(other.z, self.z),
+        }
     }
 }
 

@@ -194,7 +194,7 @@ impl<F: Facet> NearestFacet<F> {
             facets.iter().map(|of| Middle { index: of.index, at: middle(&of.facet) }).collect();
         sort(&mut order, F::TOGETHER, monitor)?;
         rearrange(&mut facets, order);
-        let bounds = Aabb::around(facets.iter().flat_map(|of| of.facet.corners()));
+        let bounds = around(&facets);
         let extent = bounds.min.abs().max(bounds.max.abs()).max_element();
         let (cube, branches, leaves) = (Cube::around(&bounds), Vec::new(), Vec::new());
         let mut tree = Self { root: Below::branch(0), branches, leaves, facets, cube, extent };
@@ -210,13 +210,12 @@ impl<F: Facet> NearestFacet<F> {
         }
         if places.len() <= F::TOGETHER {
             self.leaves.push(places.start as u32);
-            let bounds = Aabb::around(self.facets[places].iter().flat_map(|of| of.facet.corners()));
-            return Ok((Below::leaf(self.leaves.len() - 1), bounds));
+            return Ok((Below::leaf(self.leaves.len() - 1), around(&self.facets[places])));
         }
         let place = self.branches.len();
         self.branches.push(Branch { boxes: Boxes::NONE, below: [Below::branch(place); SINGLES] });
         let mut all = Aabb::EMPTY;
-        for (lane, part) in parts(places, F::TOGETHER).enumerate() {
+        for (lane, part) in parts(places, F::TOGETHER).into_iter().enumerate() {
             let (below, bounds) = self.add(part, monitor)?;
             let branch = &mut self.branches[place];
             branch.below[lane] = below;
@@ -241,8 +240,7 @@ impl<F: Facet> NearestFacet<F> {
         if self.facets.is_empty() {
             return None;
         }
-        let Closest { place, index, point, .. } =
-            dispatch!(level(), simd => self.nearer(simd, NOWHERE, most, p));
+        let Closest { place, index, point, .. } = self.nearest_from(NOWHERE, most, p);
         (place != NOWHERE).then_some(Nearest { facet: index as usize, point })
     }
 
@@ -256,25 +254,33 @@ impl<F: Facet> NearestFacet<F> {
         let tree = std::ptr::from_ref(self).addr() / align_of_val(self);
         let memory = tree.wrapping_add(self.cube.part(p)) % REMEMBERED;
         let first = LAST.with(|last| last[memory].get()).min(last_leaf);
-        let best = dispatch!(level(), simd => self.nearer(simd, first, f64::INFINITY, p));
+        let best = self.nearest_from(first, f64::INFINITY, p);
         LAST.with(|last| last[memory].set(best.leaf));
         // There is none if no distance can be compared.
         Some((self.facets.get(best.place as usize).unwrap_or(&self.facets[0]), best.point))
     }
 
-    /// The closest point, if it is no farther than so much, squared. Looks at the `first` leaf before all others.
+    /// The closest point, if it is no farther than so much, squared. Looks at the `first` leaf, if there is one, before all
+    /// others.
+    #[inline(never)]
+    fn nearest_from(&self, first: u32, most: f64, p: Point) -> Closest {
+        dispatch!(level(), simd => self.nearer(simd, first, most, p))
+    }
+
     #[inline(always)]
     fn nearer<S: Simd>(&self, simd: S, first: u32, most: f64, p: Point) -> Closest {
         let rounding = ROUNDING * (self.extent + p.abs().max_element());
         let mut best = Closest { distance: most, place: NOWHERE, index: NOWHERE, leaf: 0, point: p };
-        if first != NOWHERE {
-            self.look_at(simd, first, p, &mut best);
-        }
         let mut limit = self.cube.limit(best.limit(rounding));
         let at = self.cube.place(simd, p);
         let mut waiting = [0; WAITING];
         waiting[0] = self.root.at(0.0);
         let mut count = 1;
+        if first != NOWHERE {
+            // Above the root alone, by which it is told from the same leaf found again.
+            waiting[1] = Below::leaf(first as usize).at(0.0);
+            count = 2;
+        }
         while count > 0 {
             count -= 1;
             let next: u64 = waiting[count];
@@ -299,7 +305,7 @@ impl<F: Facet> NearestFacet<F> {
                     waiting[place] = box_at;
                     count += 1;
                 }
-            } else if place != first && self.look_at(simd, place, p, &mut best) {
+            } else if (place != first || count == 1) && self.look_at(simd, place, p, &mut best) {
                 limit = self.cube.limit(best.limit(rounding));
             }
         }
@@ -378,13 +384,29 @@ fn halves(places: Range<usize>) -> [Range<usize>; 2] {
 }
 
 /// Places in eight parts, or fewer where some are looked at together.
-fn parts(places: Range<usize>, together: usize) -> impl Iterator<Item = Range<usize>> {
-    let split = move |part: Range<usize>| {
-        let [left, right] =
-            if part.len() > together { halves(part) } else { [part.clone(), part.end..part.end] };
-        [left, right].into_iter().filter(|part| !part.is_empty())
-    };
-    split(places).flat_map(split).flat_map(split)
+fn parts(places: Range<usize>, together: usize) -> Vec<Range<usize>> {
+    let mut parts = vec![places];
+    for _ in 0..SINGLES.ilog2() {
+        for part in std::mem::take(&mut parts) {
+            if part.len() > together {
+                parts.extend(halves(part));
+            } else {
+                parts.push(part);
+            }
+        }
+    }
+    parts
+}
+
+/// The box around some facets.
+fn around<F: Facet>(facets: &[Numbered<F>]) -> Aabb {
+    let mut all = Aabb::EMPTY;
+    for numbered in facets {
+        for &corner in numbered.facet.corners() {
+            all = all.with(corner);
+        }
+    }
+    all
 }
 
 #[cfg(test)]
