@@ -13,7 +13,7 @@ use fearless_simd::{Simd, dispatch};
 use super::boxes::{Boxes, Cube};
 use super::closest::closest_on_four;
 use super::lanes::{LANES, Row, Rows, SINGLES, Vectors, level};
-use super::{Aabb, Point, closest_on_triangle};
+use super::{Aabb, Point};
 use crate::{Cancelled, Monitor, Silent};
 
 /// The monitor is asked before more facets than this are split.
@@ -44,11 +44,8 @@ pub(crate) trait Facet: Sized {
     /// Points whose convex hull it is in.
     fn corners(&self) -> &[Point];
 
-    /// Its point that is closest to `p`.
-    fn closest(&self, p: Point) -> Point;
-
-    /// The points that are closest to `p` of `TOGETHER` facets at most, and how far they are from it, squared: to the bit
-    /// what [`closest`](Self::closest) tells. Where there are fewer the rest say nothing.
+    /// The points that are closest to `p` of `TOGETHER` facets at most, and how far they are from it, squared. Where there are
+    /// fewer the rest say nothing.
     fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row);
 }
 
@@ -58,10 +55,6 @@ impl Facet for [Point; 3] {
 
     fn corners(&self) -> &[Point] {
         self
-    }
-
-    fn closest(&self, p: Point) -> Point {
-        closest_on_triangle(p, *self)
     }
 
     #[inline(always)]
@@ -412,6 +405,7 @@ fn around<F: Facet>(facets: &[Numbered<F>]) -> Aabb {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::closest_on_triangle;
 
     /// A zigzag of triangles over the unit square, `n` times `n` pairs.
     fn sheet(n: usize) -> Vec<[Point; 3]> {

@@ -52,6 +52,14 @@ impl PatchFacet {
         facets.extend(triangles_of(corners).map(Self::Triangle));
     }
 
+    /// Its point that is closest to `p`.
+    fn closest(&self, p: Point) -> Point {
+        match self {
+            Self::Triangle(corners) => closest_on_triangle(p, *corners),
+            Self::Quad(quad) => quad.point(quad.closest(p)),
+        }
+    }
+
     /// The unit normal where `p` is nearest to it.
     fn normal(&self, p: Point) -> Point {
         match self {
@@ -68,13 +76,6 @@ impl Facet for PatchFacet {
         match self {
             Self::Triangle(corners) => corners,
             Self::Quad(quad) => &quad.corners,
-        }
-    }
-
-    fn closest(&self, p: Point) -> Point {
-        match self {
-            Self::Triangle(corners) => closest_on_triangle(p, *corners),
-            Self::Quad(quad) => quad.point(quad.closest(p)),
         }
     }
 
