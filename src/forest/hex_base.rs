@@ -37,7 +37,7 @@ impl HexForest {
         };
         let face_edges = faces.ids().map(edges_of).collect();
         // What is taken apart here is not kept beside what is made of it.
-        let (nodes, faces_of_hex) = faces.into_parts();
+        let (nodes, faces_of_hex, _) = faces.into_parts();
         let HexEdges { ends, of_hex: edges_of_hex } = edges;
         let sides = faces_of_hex.into_iter().zip(edges_of_hex);
         let sides = sides.map(|(faces, edges)| Sides { edges, faces }).collect();

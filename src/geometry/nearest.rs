@@ -239,10 +239,10 @@ impl<F: Facet> NearestFacet<F> {
 
     /// Of all facets that with the least distance as it is computed, and of these the first.
     fn found(&self, p: Point) -> Option<(&Numbered<F>, Point)> {
-        let last_leaf = self.leaves.len().checked_sub(2)? as u32;
         if self.facets.is_empty() {
             return None;
         }
+        let last_leaf = self.leaves.len() as u32 - 2;
         // Searches that share a place only spoil each other's beginning.
         let tree = std::ptr::from_ref(self).addr() / align_of_val(self);
         let memory = tree.wrapping_add(self.cube.part(p)) % REMEMBERED;

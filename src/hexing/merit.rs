@@ -25,7 +25,7 @@ pub(super) struct Taste {
     pub(super) good: f64,
     /// What the share of the curves and surfaces that are lost weighs.
     lost: f64,
-    /// Mesh and solid may be so many edges from each other before smaller cells are tried.
+    /// Mesh and solid may be so many edges from each other before smaller cells are tried, or a share of the solid (`misses`).
     pub(super) near: f64,
     /// What is farther from the solid than so many edges does not show some part of it, that another background may show.
     pub(super) astray: f64,

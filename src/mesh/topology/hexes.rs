@@ -51,14 +51,9 @@ impl HexFaces {
         Ok(Self { nodes, of_hex, sides })
     }
 
-    /// The nodes of each face, and the faces of each hex.
-    pub(crate) fn into_parts(self) -> (Vec<[NodeId; 4]>, Vec<[FaceId; 6]>) {
-        (self.nodes, self.of_hex)
-    }
-
-    /// The faces of each hex, and the sides of each face, ascending.
-    pub(crate) fn into_sides(self) -> (Vec<[FaceId; 6]>, Bins) {
-        (self.of_hex, self.sides)
+    /// The nodes of each face, the faces of each hex, and the sides of each face, ascending.
+    pub(crate) fn into_parts(self) -> (Vec<[NodeId; 4]>, Vec<[FaceId; 6]>, Bins) {
+        (self.nodes, self.of_hex, self.sides)
     }
 
     /// The sides of face `f`, ascending: one on the boundary, two inside.

@@ -41,7 +41,7 @@ impl<'a> Grouping<'a> {
         hexes: &'a [[NodeId; 8]],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let (faces, sides) = HexFaces::within(node_count, hexes, monitor)?.into_sides();
+        let (_, faces, sides) = HexFaces::within(node_count, hexes, monitor)?.into_parts();
         let node = |k: usize| hexes[k / 8][k % 8].index();
         let uses = Bins::monitored(node_count, 8 * hexes.len(), node, monitor)?;
         let is_regular = parallel::try_collect(node_count, monitor, |node| is_regular(hexes, uses.at(node)))?;
@@ -173,17 +173,14 @@ impl<'a> Grouping<'a> {
             let has_k_alone = |face: &[u8; 4]| face.contains(&k) && !face.contains(&(corner as u8));
             let across =
                 FACES.iter().position(has_k_alone).expect("each corner has a face away from each other");
-            let face = self.faces[hex][across];
+            let sides = self.sides.at(self.faces[hex][across].index());
             let other = |&&side: &&Side| hex_of(side).index() != hex;
-            let beyond = hex_of(*self.sides.at(face.index()).iter().find(other)?).index();
+            let beyond = hex_of(*sides.iter().find(other)?).index();
             let nodes = &self.hexes[beyond];
             let entered = nodes.iter().position(|&n| n == self.hexes[hex][usize::from(k)])?;
             let ends = NEIGHBOURS[entered].map(|k| nodes[usize::from(k)]);
-            Some((
-                beyond,
-                ends.into_iter()
-                    .find(|end| !side_nodes(self.hexes, self.sides.at(face.index())[0]).contains(end))?,
-            ))
+            let between = side_nodes(self.hexes, sides[0]);
+            Some((beyond, ends.into_iter().find(|end| !between.contains(end))?))
         })
     }
 }
