@@ -76,6 +76,7 @@ mod trees;
 pub use forecast::{HexForecast, StageForecast};
 pub use options::{Added, Growth, HexOptions, HexRefineError, Method, RefinedHexes};
 pub use pipeline::refine_hexes;
-pub use plan::{HexBlocks, HexPlan};
+pub(crate) use plan::HexBlocks;
+pub use plan::HexPlan;
 pub use refinement::HexRefinement;
 pub use stage::{NO_ELEMENT, NO_OCTANT, StageError, StageMesh, StageReport, StageResult, stage};

@@ -64,11 +64,11 @@ pub(super) struct Decided {
 
 /// Hexes in blocks of two by two by two: what the families of deeper levels are, in the input.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct HexBlocks {
+pub(crate) struct HexBlocks {
     /// The block of each hex.
-    pub block: Vec<u32>,
+    pub(crate) block: Vec<u32>,
     /// Which of the corners of its block each hex is at, if all hexes of a block are numbered alike.
-    pub octant: Vec<u8>,
+    pub(crate) octant: Vec<u8>,
 }
 
 /// What a plan was given more to refine.
@@ -93,37 +93,22 @@ impl<'a> HexPlan<'a> {
         Self::decided(HexRefinement::new(input, options, monitor)?, None, monitor)
     }
 
-    /// As [`HexPlan::new`], where the hexes of the input stand in blocks: whole ones are refined, so that hexes away from
-    /// them can stay as they are.
-    ///
-    /// # Errors
-    /// As [`HexPlan::new`].
+    /// As [`HexPlan::new`], for a mesh that was made here: it conforms, its hexes are turned the right way, and all of its
+    /// nodes are used, so that less has to be asked of it. Where its hexes stand in blocks, whole ones are refined: then hexes
+    /// away from them can stay as they are.
     ///
     /// # Panics
-    /// If there is not one block and one octant for each hex.
-    pub fn of_blocks(
-        input: &HexMesh,
-        blocks: &'a HexBlocks,
-        options: &'a HexOptions,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, HexRefineError> {
-        let count = input.hexes.len();
-        assert_eq!(
-            [blocks.block.len(), blocks.octant.len()],
-            [count; 2],
-            "a block and an octant for each hex"
-        );
-        Self::decided(HexRefinement::new(input, options, monitor)?, Some(blocks), monitor)
-    }
-
-    /// As [`HexPlan::new`] and [`HexPlan::of_blocks`], for a mesh that was made here: it conforms, its hexes are turned the
-    /// right way, and all of its nodes are used. That takes a part of what looking at any mesh does.
+    /// If there are blocks, and not one block and one octant for each hex.
     pub(crate) fn of_conforming(
         input: &HexMesh,
         blocks: Option<&'a HexBlocks>,
         options: &'a HexOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
+        if let Some(HexBlocks { block, octant }) = blocks {
+            let count = input.hexes.len();
+            assert_eq!([block.len(), octant.len()], [count; 2], "a block and an octant for each hex");
+        }
         Self::decided(HexRefinement::of_conforming(input, options, monitor)?, blocks, monitor)
     }
 
