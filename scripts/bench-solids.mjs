@@ -91,8 +91,12 @@ async function onPage(browser, url, name, obj, edgeLength) {
     // While it works there is another button in its place.
     const button = () => document.querySelector('#mesh');
     const started = performance.now();
+    const meshed = new Promise((resolve) => {
+      const observer = new MutationObserver(() => button()?.textContent.includes('Meshed') && resolve(observer.disconnect()));
+      observer.observe(document.body, { subtree: true, childList: true, characterData: true });
+    });
     button().click();
-    while (!button()?.textContent.includes('Meshed')) await new Promise((drawn) => requestAnimationFrame(drawn));
+    await meshed;
     return (performance.now() - started) / 1000;
   });
   const told = await page.locator('[data-figure=hexes]').innerText();

@@ -35,8 +35,8 @@ const MODULES = {
   },
 } as const;
 
-/** Progress is told at most this often, in milliseconds. */
-const PROGRESS_INTERVAL = 40;
+/** Progress is told at most this often, in milliseconds: a page draws itself anew each time, on a core that could mesh. */
+const PROGRESS_INTERVAL = 100;
 
 /** What the module calls by name: see src/web/listener.rs. */
 interface Listeners {

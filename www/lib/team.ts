@@ -20,7 +20,7 @@ export interface TeamSettings {
 }
 
 /** Shared memory is looked at this often for progress, in milliseconds. */
-const POLL_INTERVAL = 40;
+const POLL_INTERVAL = 100;
 
 /** Steps of a stage's progress in the control block. */
 const STEPS = 65535;
