@@ -1,6 +1,6 @@
 //! One pass from a background to a mesh, and what came of it.
 
-use super::background::{Failure, OctreeMesh};
+use super::background::{Failure, Missed, OctreeMesh};
 use super::core::{Core, CoreOptions, CoreReport, core};
 use super::correspondence::{Correspondence, correspond};
 use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, Part, fit, quality};
@@ -16,6 +16,9 @@ use crate::mesh::topology::hex_boundary;
 use crate::mesh::{Distances, HexMesh, NodeId, Triangles};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
+
+/// Fair cells are better than good ones have to be by this: rounding, and smoothing once more, do not make them bad.
+const SPARE: f64 = 0.01;
 
 /// A mesh of a body and where it stands for what.
 #[derive(Clone, Debug)]
@@ -90,14 +93,25 @@ pub(super) fn attempt(
 
     let mut sheets = insert_sheets(&mut mesh, &mut on, solid, monitor)?;
     let max_distance = options.max_distance.unwrap_or(f64::INFINITY);
-    let fit_options = FitOptions { max_distance, ..FitOptions::default() };
-    let fitted = fit(&mut mesh, &mut on, &mut sheets, solid, &fit_options, monitor)?;
+    let near = tolerance(site, plan.kind);
+    let fair = site.taste.good + SPARE;
+    let fit_options = FitOptions { max_distance, near, fair, ..FitOptions::default() };
+    let mut fitted = fit(&mut mesh, &mut on, &mut sheets, solid, &fit_options, monitor)?;
     report.features = Some(FeatureReport::new(solid, &on.reduction));
-    let came = &fitted.report;
-    if !came.inverted.is_empty() {
-        return Err(HexingError::Tangled(came.inverted.len()));
+    if !fitted.report.inverted.is_empty() {
+        return Err(HexingError::Tangled(fitted.report.inverted.len()));
     }
-    let (distance, far) = distances(&mesh, solid, tolerance(site, plan.kind), monitor)?;
+    let look = |mesh: &HexMesh| -> Result<(Distances, Vec<Failure>), Cancelled> {
+        let (distance, far) = distances(mesh, solid, near, monitor)?;
+        Ok((distance, misses(site, plan.kind, &cut, &on.reduction, far, &cells)))
+    };
+    let (mut distance, mut failures) = look(&mesh)?;
+    let is_far = |failure: &Failure| failure.missed == Missed::Far;
+    let is_only_far = off == 0 && !failures.is_empty() && failures.iter().all(is_far);
+    if is_only_far && fitted.approach(&mut mesh, &on, solid, &fit_options, monitor)? {
+        (distance, failures) = look(&mesh)?;
+    }
+    let came = &fitted.report;
     report.mesh = Some(MeshedReport {
         sheets: SheetCounts::new(&sheets, came),
         fit: FitCounts::new(came, 0),
@@ -106,7 +120,6 @@ pub(super) fn attempt(
         mean: came.mean,
         distance,
     });
-    let failures = misses(site, plan.kind, &cut, &on.reduction, far, &cells);
     Ok((report, Some(Meshed { mesh, on, failures, fitted })))
 }
 

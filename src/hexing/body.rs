@@ -10,6 +10,9 @@
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
 //!    octree, and 3 for that.
 //!
+//! A mesh that misses nothing but is too far from the solid is first brought nearer with cells that are fair instead of good
+//! (`attempt`).
+//!
 //! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and
 //! how many times as large as the first another may be is bounded.
 

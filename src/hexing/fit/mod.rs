@@ -15,8 +15,10 @@
 //! 7. `even`: all is smoothed for the mean;
 //! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places. Where they stay far apart
 //!    the last two steps are made again around there, with other courses, and each counts that brings them much nearer;
-//! 9. `even` once more, for what is inside and in planes ([`Fitted::finish`]): that takes mesh and solid no farther from
-//!    each other, so that meshes can be held against each other before it, and only the one that is kept needs it.
+//! 9. `approach`: where they are so far apart that another attempt would be made, with cells that are fair instead of good
+//!    ([`Fitted::approach`]);
+//! 10. `even` once more, for what is inside and in planes ([`Fitted::finish`]): that takes mesh and solid no farther from
+//!     each other, so that meshes can be held against each other before it, and only the one that is kept needs it.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
 //! off the solid and is reported with its distance.
@@ -25,6 +27,7 @@
 //! that leaves cells inverted. Here cells are positive first, and stay so.
 
 mod apart;
+mod approach;
 mod even;
 mod finish;
 mod holds;
@@ -55,7 +58,7 @@ pub(super) use finish::{FINISHED, FINISHING};
 use holds::{Hold, Holds};
 use inflate::inflate;
 use loosen::loosen;
-use near::near;
+use near::{Nearness, Terms, near};
 pub(super) use progress::Part;
 use pull::{Course, pull};
 use rings::widen;
@@ -77,10 +80,11 @@ const PULL: f64 = 0.1;
 const UNLOCK: [f64; 3] = [0.3, 0.5, 0.7];
 const LOOSEN: f64 = 0.9;
 
-/// The share of the work that is done where soft curves are given up, and where all is evened out; of what is left then the
-/// share where mesh and solid are brought nearer.
+/// The share of the work that is done where soft curves are given up, where all is evened out, and where only what is far
+/// from the solid is left; of a course of evening out the share where mesh and solid are brought nearer.
 const SOFTEN: f64 = 0.9;
 const EVEN: f64 = 0.94;
+const APPROACH: f64 = 0.98;
 const NEAR: f64 = 0.6;
 
 /// A course more of evening out counts where it leaves so much less between mesh and solid.
@@ -93,6 +97,9 @@ const AGAIN: usize = 8;
 /// How much of the work a round of these is, and unlocking alone.
 const ROUND: f64 = 0.2;
 const UNLOCKING: f64 = 0.1;
+
+/// A scaled Jacobian that no cell loses for the sake of distance, unless another attempt would be made for that.
+const GOOD: f64 = 0.45;
 
 /// How far nodes may be from where they belong for the sake of cells, in edges, if they are not farther already.
 const LEAVE: f64 = 0.15;
@@ -110,6 +117,10 @@ pub struct FitOptions {
     /// How far mesh and solid may be from each other, in model units: for better cells nodes leave where they belong by
     /// half of that at most, if they are not farther already.
     pub max_distance: f64,
+    /// How near mesh and solid are brought to each other by [`Fitted::approach`], in model units.
+    pub near: f64,
+    /// The least scaled Jacobian that this leaves in cells that have a greater one.
+    pub fair: f64,
 }
 
 impl Default for FitOptions {
@@ -118,6 +129,8 @@ impl Default for FitOptions {
             sweeps: 40,
             smoothing: OptimizeOptions { smooth_sweeps: 10, ..Default::default() },
             max_distance: f64::INFINITY,
+            near: f64::INFINITY,
+            fair: GOOD,
         }
     }
 }
@@ -156,6 +169,8 @@ pub struct Fitted {
     /// What came of it.
     pub report: FitReport,
     holds: Vec<Hold>,
+    /// Nodes near which mesh and solid are farthest from each other.
+    far: Vec<bool>,
 }
 
 /// Moves the nodes of `mesh` to the solid as `on` tells: all but the last step. Sheets that cannot be fitted are taken back, in all of `mesh`,
@@ -176,13 +191,15 @@ pub fn fit(
     let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
     let (mut report, mut holds) =
         fitted(mesh, on, sheets, &OnSolid::new(solid, &reduction), options, &part(0.0, SOFTEN))?;
+    let mut far = Vec::new();
     if report.inverted.is_empty() {
         let mut polish = || {
             let softened = soften(mesh, on, &mut holds, solid, options.max_distance, &part(SOFTEN, EVEN))?;
-            Ok(softened + even_and_near(mesh, on, &holds, solid, options.max_distance, &part(EVEN, 1.0))?)
+            let came = even_and_near(mesh, on, &holds, solid, options.max_distance, &part(EVEN, APPROACH))?;
+            Ok((softened + came.sweeps, came.far))
         };
         match polish() {
-            Ok(sweeps) => report.sweeps += sweeps,
+            Ok((sweeps, apart)) => (report.sweeps, far) = (report.sweeps + sweeps, apart),
             Err(cancelled) => {
                 mesh.positions = before;
                 return Err(cancelled);
@@ -191,7 +208,7 @@ pub fn fit(
         (report.worst, report.mean) = quality(mesh);
         report.off = off(mesh, on, &holds, &OnSolid::new(solid, &on.reduction));
     }
-    Ok(Fitted { report, holds })
+    Ok(Fitted { report, holds, far })
 }
 
 #[cfg(test)]
@@ -263,7 +280,7 @@ fn fitted(
 }
 
 /// Smooths all for the mean and brings mesh and solid nearer to each other; where they stay far from each other again, with
-/// one course after the other, each of which counts if it brings them much nearer. Returns the number of sweeps.
+/// one course after the other, each of which counts if it brings them much nearer.
 fn even_and_near(
     mesh: &mut HexMesh,
     on: &Correspondence,
@@ -271,28 +288,45 @@ fn even_and_near(
     solid: &SolidModel,
     max_distance: f64,
     monitor: &dyn Monitor,
-) -> Result<usize, Cancelled> {
+) -> Result<Nearness, Cancelled> {
     let mut survey = Survey::new(mesh, &on.faces, solid, monitor)?;
-    let (mut sweeps, mut apart, mut moves) = (0, f64::INFINITY, vec![true; mesh.positions.len()]);
+    let far = vec![true; mesh.positions.len()];
+    let mut all = Nearness { sweeps: 0, apart: f64::INFINITY, far };
     for (k, evening) in Evening::ALL.into_iter().enumerate() {
-        let range =
-            |from: f64, to: f64| [from, to].map(|share| (k as f64 + share) / Evening::ALL.len() as f64);
-        let part = |from, to| Part { whole: monitor, stage: FITTING, range: range(from, to) };
+        let range = [k, k + 1].map(|k| k as f64 / Evening::ALL.len() as f64);
+        let part = Part { whole: monitor, stage: FITTING, range };
+        let terms = Terms { leave: 0.5 * max_distance, evening, enough: 0.0, fair: GOOD };
         let before = mesh.positions.clone();
-        sweeps += even(mesh, on, holds, solid, evening, &|n| moves[n.index()], &part(0.0, NEAR))?;
-        let came = near(mesh, on, holds, &mut survey, max_distance, evening, &part(NEAR, 1.0))?;
-        sweeps += came.sweeps;
-        if came.apart < NEARER * apart {
-            (apart, moves) = (came.apart, came.far);
-            widen(mesh, &mut moves, AGAIN, monitor)?;
+        let mut came = course(mesh, on, holds, (&mut survey, &all.far), terms, &part)?;
+        came.sweeps += all.sweeps;
+        if came.apart < NEARER * all.apart {
+            all = came;
+            widen(mesh, &mut all.far, AGAIN, monitor)?;
         } else {
             mesh.positions = before;
+            all.sweeps = came.sweeps;
         }
-        if !moves.contains(&true) || apart <= FAR * survey.edge {
+        if !all.far.contains(&true) || all.apart <= FAR * survey.edge {
             break;
         }
     }
-    Ok(sweeps)
+    Ok(all)
+}
+
+/// Smooths the cells around the nodes that move for the mean, and brings mesh and solid nearer to each other.
+fn course(
+    mesh: &mut HexMesh,
+    on: &Correspondence,
+    holds: &[Hold],
+    (survey, moves): (&mut Survey, &[bool]),
+    terms: Terms,
+    monitor: &dyn Monitor,
+) -> Result<Nearness, Cancelled> {
+    let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
+    let solid = survey.solid;
+    let sweeps = even(mesh, on, holds, solid, terms.evening, &|n| moves[n.index()], &part(0.0, NEAR))?;
+    let came = near(mesh, on, holds, survey, terms, &part(NEAR, 1.0))?;
+    Ok(Nearness { sweeps: sweeps + came.sweeps, ..came })
 }
 
 /// The least scaled Jacobian, if there is one, and the mean.
@@ -316,5 +350,7 @@ fn off(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], target: &dyn Target)
     off
 }
 
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod testing;
 #[cfg(test)]
 mod tests;

@@ -36,10 +36,9 @@ const ENOUGH: f64 = 0.98;
 const RINGS: usize = 2;
 
 /// No cell is made worse than this by that, unless it is already: the less, the farther mesh and solid are apart there,
-/// from `LEAST` edges to `MOST`. Nor worse than the worst of all, if that is below `GOOD`, or else this.
+/// from `LEAST` edges to `MOST`. Nor worse than the worst of all, if that is below what is fair, or else that.
 const FLOORS: [f64; 2] = [0.72, 0.35];
 const MOST: f64 = 0.22;
-const GOOD: f64 = 0.45;
 
 /// What is apart has to become less by this share of it.
 const GAIN: f64 = 0.02;
@@ -63,15 +62,27 @@ pub(super) struct Nearness {
     pub(super) far: Vec<bool>,
 }
 
-/// Moves boundary nodes where mesh and solid are farthest from each other; nodes leave where they belong by no more than
-/// half of `max_distance`, if they are not farther already. The `survey` may be older than the mesh, and is not afterwards.
+/// What is asked of it, and what it may cost.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Terms {
+    /// How far nodes may leave where they belong, in model units, if they are not farther already.
+    pub(super) leave: f64,
+    /// How what is inside follows.
+    pub(super) evening: Evening,
+    /// It ends when they are no farther from each other than this, in model units.
+    pub(super) enough: f64,
+    /// No cell is made worse than this, unless it is already.
+    pub(super) fair: f64,
+}
+
+/// Moves boundary nodes where mesh and solid are farthest from each other. The `survey` may be older than the mesh, and is not
+/// afterwards.
 pub(super) fn near(
     mesh: &mut HexMesh,
     on: &Correspondence,
     holds: &[Hold],
     survey: &mut Survey,
-    max_distance: f64,
-    evening: Evening,
+    terms: Terms,
     monitor: &dyn Monitor,
 ) -> Result<Nearness, Cancelled> {
     let solid = survey.solid;
@@ -90,7 +101,7 @@ pub(super) fn near(
             mesh.positions = best;
             break;
         }
-        let is_last = round == ROUNDS || farthest > ENOUGH * came.apart;
+        let is_last = round == ROUNDS || farthest > ENOUGH * came.apart || farthest <= terms.enough;
         came.far = far(mesh, on, holds, survey, SHARE * farthest);
         came.apart = farthest;
         if is_last || !came.far.contains(&true) {
@@ -100,14 +111,14 @@ pub(super) fn near(
         let moves = |n: NodeId| came.far[n.index()];
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, &moves, monitor)?;
         let gaps = Apart::new(&problem, &on.faces, survey);
-        let worst = quality(mesh).0.map_or(GOOD, |worst| worst.min(GOOD));
-        let places = Places { on, holds, target: &target, apart: gaps, worst, leave: 0.5 * max_distance };
+        let worst = quality(mesh).0.map_or(terms.fair, |worst| worst.min(terms.fair));
+        let places = Places { on, holds, target: &target, apart: gaps, worst, leave: terms.leave };
         let tries = places.try_all(&mut problem, &part(0.0, 0.7))?;
         problem.write_back(&mut mesh.positions);
         if tries == 0 {
             break;
         }
-        came.sweeps += tries + follow(mesh, on, &problem, evening, &part(0.7, 1.0))?;
+        came.sweeps += tries + follow(mesh, on, &problem, terms.evening, &part(0.7, 1.0))?;
     }
     Ok(came)
 }
@@ -281,45 +292,14 @@ impl Places<'_> {
 mod tests {
     use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-    use super::super::{EVEN, FitOptions, fit};
+    use super::super::testing::{RISE, farthest, held, house};
+    use super::super::{EVEN, FitOptions, GOOD, fit};
     use super::*;
     use crate::hexing::correspondence::correspond;
     use crate::hexing::sheets::insert_sheets;
     use crate::mesh::quality::scaled_jacobian;
-    use crate::mesh::{GridOptions, PolygonMesh, hex_grid};
     use crate::solid::SolidModel;
     use crate::{Silent, Stage};
-
-    /// How much the roof of a house of 2 by 2 rises from its eaves to the ridge: less than a feature.
-    const RISE: f64 = 0.25;
-
-    fn house() -> SolidModel {
-        let profile = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [1.0, 1.5 + RISE], [0.0, 1.5]];
-        let end = |y: f64| profile.map(|[x, z]| Point::new(x, y, z));
-        let mut surface = PolygonMesh { positions: [end(0.0), end(2.0)].concat(), ..PolygonMesh::default() };
-        surface.push_face([0, 1, 2, 3, 4].map(NodeId));
-        surface.push_face([9, 8, 7, 6, 5].map(NodeId));
-        for k in 0..5 {
-            let next = (k + 1) % 5;
-            surface.push_face([next, k, k + 5, next + 5].map(NodeId));
-        }
-        crate::solid::testing::solid(&surface)
-    }
-
-    /// Five cells across: no node is near the ridge.
-    fn mesh_of_house() -> HexMesh {
-        let options = GridOptions { spacing: 0.4, margin: 0.0, fitted: true, max_hexes: 1000 };
-        let mut mesh = hex_grid(house().bounds(), &options).unwrap();
-        let top = 1.5 + RISE;
-        mesh.positions.iter_mut().for_each(|p| p.z *= (top - RISE * (p.x - 1.0).abs()) / top);
-        mesh
-    }
-
-    fn farthest(mesh: &HexMesh, on: &Correspondence, solid: &SolidModel) -> f64 {
-        let mut survey = Survey::new(mesh, &on.faces, solid, &Silent).unwrap();
-        survey.renew(mesh, &on.faces, &Silent).unwrap();
-        survey.distances.iter().copied().fold(0.0, f64::max)
-    }
 
     /// Brings them nearer with the first course.
     fn brought(
@@ -330,17 +310,14 @@ mod tests {
         max_distance: f64,
     ) -> Nearness {
         let mut survey = Survey::new(mesh, &on.faces, solid, &Silent).unwrap();
-        near(mesh, on, holds, &mut survey, max_distance, Evening::ALL[0], &Silent).unwrap()
-    }
-
-    fn held(on: &Correspondence) -> Vec<Hold> {
-        let hold = |anchor: &Anchor| if *anchor == Anchor::Inside { Hold::Free } else { Hold::Held };
-        on.anchors.iter().map(hold).collect()
+        let evening = Evening::ALL[0];
+        let terms = Terms { leave: 0.5 * max_distance, evening, enough: 0.0, fair: GOOD };
+        near(mesh, on, holds, &mut survey, terms, &Silent).unwrap()
     }
 
     #[test]
     fn a_survey_that_is_renewed_is_like_a_new_one() {
-        let (solid, mut mesh) = (house(), mesh_of_house());
+        let (solid, mut mesh) = house(0.0);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let mut survey = Survey::new(&mesh, &on.faces, &solid, &Silent).unwrap();
         survey.renew(&mesh, &on.faces, &Silent).unwrap();
@@ -357,7 +334,7 @@ mod tests {
 
     #[test]
     fn nodes_slide_to_a_ridge_that_is_no_feature() {
-        let (solid, mut mesh) = (house(), mesh_of_house());
+        let (solid, mut mesh) = house(0.0);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let before = farthest(&mesh, &on, &solid);
         assert!((0.045..0.055).contains(&before), "a fifth of an edge and more: {before}");
@@ -374,7 +351,7 @@ mod tests {
     /// Nodes that may leave the solid do so by no more than half of how far the mesh may be from it.
     #[test]
     fn leashes_are_as_long_as_the_distance_allowed() {
-        let (solid, mesh) = (house(), mesh_of_house());
+        let (solid, mesh) = house(0.0);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let leashed: Vec<Hold> =
             held(&on).into_iter().map(|hold| if hold == Hold::Held { Hold::Leashed } else { hold }).collect();
@@ -390,7 +367,7 @@ mod tests {
 
     #[test]
     fn what_is_near_stays_where_it_is() {
-        let (solid, mut mesh) = (house(), mesh_of_house());
+        let (solid, mut mesh) = house(0.0);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         // With nodes on the ridge there is nothing to do.
         mesh.positions.iter_mut().filter(|p| (p.x - 0.8).abs() < 1e-9).for_each(|p| {
@@ -425,7 +402,7 @@ mod tests {
 
     #[test]
     fn a_fit_that_is_stopped_at_last_leaves_nodes_where_they_were() {
-        let (solid, mut mesh) = (house(), mesh_of_house());
+        let (solid, mut mesh) = house(0.0);
         let mut on = correspond(&mesh, &solid, &Silent).unwrap();
         let mut sheets = insert_sheets(&mut mesh, &mut on, &solid, &Silent).unwrap();
         let before = mesh.positions.clone();
