@@ -108,8 +108,14 @@ pub(super) fn attempt(
     let (mut distance, mut failures) = look(&mesh)?;
     let is_far = |failure: &Failure| failure.missed == Missed::Far;
     let is_only_far = off == 0 && !failures.is_empty() && failures.iter().all(is_far);
-    if is_only_far && fitted.approach(&mut mesh, &on, solid, &fit_options, monitor)? {
-        (distance, failures) = look(&mesh)?;
+    if is_only_far {
+        let before = (mesh.positions.clone(), fitted.clone());
+        let apart = fitted.approach(&mut mesh, &on, solid, &fit_options, monitor)?;
+        let now = if apart <= near { Some(look(&mesh)?) } else { None };
+        match now.filter(|(_, failures)| failures.is_empty()) {
+            Some(now) => (distance, failures) = now,
+            None => (mesh.positions, fitted) = before,
+        }
     }
     let came = &fitted.report;
     report.mesh = Some(MeshedReport {
