@@ -58,6 +58,9 @@ const BINARYEN_FEATURES = [
   'simd',
 ].map((feature) => `--enable-${feature}`);
 
+// Which features a module uses is for linkers to know.
+const STRIPPED = ['--strip-target-features'];
+
 // What a module is made for: millions of quads a second, or that functions are put into others hardly anywhere but where
 // they say so, which keeps the larger modules a tenth smaller, and as fast.
 const FAST = { rustc: ['-C', 'opt-level=3'], binaryen: [] };
@@ -66,11 +69,11 @@ const SMALL = {
   binaryen: ['--one-caller-inline-max-function-size', '0', '--flexible-inline-max-function-size', '0'],
 };
 
-const ON_ONE_THREAD = { profile: 'web-mesher', optimize: ['-O3'] };
+const ON_ONE_THREAD = { profile: 'web-mesher', optimize: ['-O3', ...STRIPPED] };
 
 const ON_A_POOL = {
   profile: 'web-mesher',
-  optimize: ['-O3', '--enable-threads'],
+  optimize: ['-O3', '--enable-threads', ...STRIPPED],
   cargo: ['-Z', 'build-std=std,panic_abort'],
   env: { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: THREADS_FLAGS },
 };

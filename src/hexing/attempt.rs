@@ -5,7 +5,7 @@ use super::core::{Core, CoreOptions, CoreReport, core};
 use super::correspondence::{Correspondence, correspond};
 use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, Part, fit, quality};
 use super::ground::{Plan, Site};
-use super::merit::Bar;
+use super::merit::{Bar, FAIR};
 use super::misses::{FineCells, misses, tolerance};
 use super::options::HexingError;
 use super::report::{AttemptReport, FeatureReport, FitCounts, MeshedReport, SheetCounts};
@@ -107,14 +107,15 @@ pub(super) fn attempt(
     };
     let (mut distance, mut failures) = look(&mesh)?;
     let is_far = |failure: &Failure| failure.missed == Missed::Far;
-    let is_only_far = off == 0 && !failures.is_empty() && failures.iter().all(is_far);
-    if is_only_far {
-        let before = (mesh.positions.clone(), fitted.clone());
-        let apart = fitted.approach(&mut mesh, &on, solid, &fit_options, monitor)?;
-        let now = if apart <= near { Some(look(&mesh)?) } else { None };
-        match now.filter(|(_, failures)| failures.is_empty()) {
-            Some(now) => (distance, failures) = now,
-            None => (mesh.positions, fitted) = before,
+    if off == 0 && fitted.report.mean >= FAIR && !failures.is_empty() && failures.iter().all(is_far) {
+        let before = mesh.positions.clone();
+        let report = fitted.approach(&mut mesh, &on, solid, &fit_options, monitor)?;
+        let now = look(&mesh)?;
+        if now.1.is_empty() {
+            (distance, failures) = now;
+            fitted.report = report;
+        } else {
+            mesh.positions = before;
         }
     }
     let came = &fitted.report;

@@ -60,7 +60,7 @@ const FAULT: f64 = 0.25;
 const MEAN: f64 = 4.0;
 
 /// A mean scaled Jacobian that smaller cells must not cost, and what each lack of it weighs.
-const FAIR: f64 = 0.85;
+pub(super) const FAIR: f64 = 0.85;
 const UNFAIR: f64 = 10.0;
 
 /// What an attempt has to reach to be worth going on with.

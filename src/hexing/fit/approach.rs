@@ -6,7 +6,7 @@ use super::apart::Survey;
 use super::near::Terms;
 use super::progress::Part;
 use super::target::OnSolid;
-use super::{APPROACH, FITTING, FitOptions, Fitted, GOOD, course, off, quality};
+use super::{APPROACH, FITTING, FitOptions, FitReport, Fitted, GOOD, course, off, quality};
 use crate::mesh::HexMesh;
 use crate::optimize::Evening;
 use crate::solid::SolidModel;
@@ -17,34 +17,33 @@ const ENOUGH: f64 = 0.75;
 
 impl Fitted {
     /// Brings mesh and solid as near to each other as the `options` say, as far as that is possible with cells that they call
-    /// fair: `mesh` and `on` are as the fit left them. Returns how far they are from each other then, where the fit looks.
+    /// fair: `mesh` and `on` are as the fit left them. Returns what came of the fit with that.
     ///
     /// # Errors
     /// [`Cancelled`] when the monitor says so; nodes that have moved by then stay where they are.
     pub fn approach(
-        &mut self,
+        &self,
         mesh: &mut HexMesh,
         on: &Correspondence,
         solid: &SolidModel,
         options: &FitOptions,
         monitor: &dyn Monitor,
-    ) -> Result<f64, Cancelled> {
+    ) -> Result<FitReport, Cancelled> {
         let &FitOptions { max_distance, near, fair, .. } = options;
         let part = Part { whole: monitor, stage: FITTING, range: [APPROACH, 1.0] };
         let evening = Evening::ALL[0];
         let terms = Terms { leave: 0.5 * max_distance, evening, enough: ENOUGH * near, fair: fair.min(GOOD) };
         let mut survey = Survey::new(mesh, &on.faces, solid, &part)?;
         let came = course(mesh, on, &self.holds, (&mut survey, &self.far), terms, &part)?;
-        self.report.sweeps += came.sweeps;
-        (self.report.worst, self.report.mean) = quality(mesh);
-        self.report.off = off(mesh, on, &self.holds, &OnSolid::new(solid, &on.reduction));
-        Ok(came.apart)
+        let sweeps = self.report.sweeps + came.sweeps;
+        let off = off(mesh, on, &self.holds, &OnSolid::new(solid, &on.reduction));
+        let (worst, mean) = quality(mesh);
+        Ok(FitReport { taken_back: self.report.taken_back, sweeps, off, worst, mean, inverted: Vec::new() })
     }
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
-    use super::super::FitReport;
     use super::super::target::Target;
     use super::super::testing::{farthest, held, house};
     use super::*;
@@ -64,12 +63,12 @@ mod tests {
         let approached = |near: f64, fair: f64| {
             let mut mesh = mesh.clone();
             let far = vec![true; mesh.positions.len()];
-            let mut fitted = Fitted { report: FitReport::default(), holds: held(&on), far };
+            let fitted = Fitted { report: FitReport::default(), holds: held(&on), far };
             let options = FitOptions { near, fair, ..FitOptions::default() };
-            let apart = fitted.approach(&mut mesh, &on, &solid, &options, &Silent).unwrap();
-            assert_eq!((fitted.report.worst, fitted.report.mean), quality(&mesh));
-            assert_eq!((apart, fitted.report.off.len()), (farthest(&mesh, &on, &solid), 0));
-            (apart, fitted.report.worst.unwrap(), fitted.report.sweeps)
+            let report = fitted.approach(&mut mesh, &on, &solid, &options, &Silent).unwrap();
+            assert_eq!((report.worst, report.mean), quality(&mesh));
+            assert_eq!(report.off, []);
+            (farthest(&mesh, &on, &solid), report.worst.unwrap(), report.sweeps)
         };
         let near = 0.06;
         let [(good, best, _), (fair, worst, sweeps)] = [GOOD, 0.36].map(|least| approached(near, least));
