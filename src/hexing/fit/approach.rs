@@ -1,5 +1,5 @@
 //! Brings mesh and solid near enough to each other where cells are good and they are not: cells may become fair for it. That
-//! is better than another attempt with smaller cells, whose transitions would be no better.
+//! spares another attempt with smaller cells, which takes as long again and whose transitions cost cells as well.
 
 use super::super::correspondence::Correspondence;
 use super::apart::Survey;
