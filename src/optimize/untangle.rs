@@ -20,7 +20,7 @@ const RINGS: usize = 2;
 const ROUNDS: usize = 4;
 
 /// Looks in a row that find no fewer cells than before until the rest is given up.
-const PATIENCE: usize = 10;
+const PATIENCE: usize = 6;
 
 /// eps^2 is `SMALL` and this share of the least determinant's square.
 const DEPTH: f64 = 0.04;
