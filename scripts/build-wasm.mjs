@@ -58,8 +58,9 @@ const BINARYEN_FEATURES = [
   'simd',
 ].map((feature) => `--enable-${feature}`);
 
-// Which features a module uses is for linkers to know.
-const STRIPPED = ['--strip-target-features'];
+// Which features a module uses is for linkers to know. Below 1,024 is the end of the stack, which grows down to 0 there:
+// what Rust has addresses of lies above it, so that Binaryen may put sums of addresses and constants into loads and stores.
+const OPTIMIZED = ['-O3', '--strip-target-features', '--low-memory-unused'];
 
 // What a module is made for: millions of quads a second, or that functions are put into others hardly anywhere but where
 // they say so, which keeps the larger modules a tenth smaller, and as fast.
@@ -69,11 +70,11 @@ const SMALL = {
   binaryen: ['--one-caller-inline-max-function-size', '0', '--flexible-inline-max-function-size', '0'],
 };
 
-const ON_ONE_THREAD = { profile: 'web-mesher', optimize: ['-O3', ...STRIPPED] };
+const ON_ONE_THREAD = { profile: 'web-mesher', optimize: OPTIMIZED };
 
 const ON_A_POOL = {
   profile: 'web-mesher',
-  optimize: ['-O3', '--enable-threads', ...STRIPPED],
+  optimize: [...OPTIMIZED, '--enable-threads'],
   cargo: ['-Z', 'build-std=std,panic_abort'],
   env: { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: THREADS_FLAGS },
 };
