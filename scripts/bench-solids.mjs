@@ -30,9 +30,9 @@ const SIDES = {
   Angled: 60,
   nist_ctc_01: 80,
   nist_ftc_11: 96,
-  spot: 62,
+  spot: 65,
   bunny: 56,
-  MFCAD: 34,
+  MFCAD: 32,
   nist_ctc_05: 36,
   nist_ctc_04: 25,
 };

@@ -1,12 +1,13 @@
 //! A mesh of one body: attempts, until there is nothing left to mend (design, section 5; issue: refine and retry).
 //!
 //! 1. The background of choice, as it is.
-//! 2. Where that is a sweep that is far from the solid somewhere, a grid instead.
-//! 3. Where the best missed something that somebody drew, or is too far from the solid, cells a level smaller there,
+//! 2. Where that missed something that somebody drew, or is too far from the solid, cells a level smaller there,
 //!    as often as the options allow, and as long as it helps. Of a core that is not of the solid's kind it is not always
 //!    known where it differs: then thin walls, narrow gaps and short curves are refined. Where that would be many
 //!    cells, what was lost alone.
-//! 4. Where cells of a sweep are bad, a grid; where those of a grid are, grids whose lines stand elsewhere.
+//! 3. Where the best is a sweep that does not show some part of the solid, or whose cells are bad, a grid; one that is better
+//!    but does not show all is refined in its turn.
+//! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
 //!    octree, and 3 for that.
 //!
@@ -77,12 +78,13 @@ pub(super) fn mesh_body(
         }
         made => made?,
     }
-    if site.may_be_grid() && search.is_astray() {
-        search.another(site.plan(Background::Grid), search.limit())?;
-    }
     search.refine(options.max_hexes)?;
-    if site.may_be_grid() && !search.is_good() && !search.has_tried(Background::Grid) {
+    let is_astray = search.is_astray();
+    if site.may_be_grid() && (is_astray || !search.is_good()) && !search.has_tried(Background::Grid) {
         search.another(site.plan(Background::Grid), search.limit())?;
+        if is_astray && search.is_on(Background::Grid) {
+            search.refine(options.max_hexes)?;
+        }
     }
     if search.is_on(Background::Grid) {
         for shift in SHIFTS {
@@ -294,18 +296,26 @@ mod tests {
     use crate::geometry::Point;
     use crate::solid::testing::{moved, solid, voxels};
 
-    /// A sweep captures its walls, which no grid does, and is near the solid but for a dimple in the top.
+    /// A sweep captures its walls, which no grid does, and shows all of the solid but a dimple in the top, be it shallow or so
+    /// narrow and deep that no cells of a sweep show it.
     #[test]
     fn a_sweep_is_refined_before_a_grid_is_tried() {
-        let dimple = |p: Point| 0.4 * (1.0 - (p.truncate() - 10.0).length() / 3.0).max(0.0);
-        let bent = |p: Point| Point::new(p.x + 3.0 * libm::sin(p.y / 4.0), p.y, p.z);
-        let plate = voxels([20, 20, 6], |_| true);
-        let surface = moved(plate, |p| bent(if p.z == 6.0 { p - Point::Z * dimple(p) } else { p }));
-        let options =
-            HexingOptions { edge_length: 1.5, max_distance: Some(0.08), ..HexingOptions::default() };
-        let Body { report, .. } = mesh_body(&solid(&surface), &options, &Silent).unwrap();
-        let kinds: Vec<_> = report.attempts.iter().map(|a| (a.background, a.levels.len())).collect();
-        assert_eq!(kinds[..2], [(Background::Swept, 1), (Background::Swept, 2)]);
+        for (depth, radius) in [(0.4, 3.0), (4.0, 1.0)] {
+            let dimple = |p: Point| depth * (1.0 - (p.truncate() - 10.0).length() / radius).max(0.0);
+            let bent = |p: Point| Point::new(p.x + 3.0 * libm::sin(p.y / 4.0), p.y, p.z);
+            let plate = voxels([20, 20, 6], |_| true);
+            let surface = moved(plate, |p| bent(if p.z == 6.0 { p - Point::Z * dimple(p) } else { p }));
+            let options =
+                HexingOptions { edge_length: 1.5, max_distance: Some(0.08), ..HexingOptions::default() };
+            let solid = solid(&surface);
+            let Body { report, .. } = mesh_body(&solid, &options, &Silent).unwrap();
+            let kinds: Vec<_> = report.attempts.iter().map(|a| (a.background, a.levels.len())).collect();
+            assert_eq!(kinds[..2], [(Background::Swept, 1), (Background::Swept, 2)], "{depth}");
+            let site = Site::new(&solid, &options, &Silent).unwrap();
+            let is_astray = distance(&report.attempts[0]) > site.taste.astray * options.edge_length;
+            assert_eq!(is_astray, depth > 1.0);
+            assert_eq!(kinds.get(2..4) == Some(&[(Background::Grid, 1), (Background::Grid, 2)]), is_astray);
+        }
     }
 
     /// Euler numbers of a first attempt on a background of so many hexes, and how many an octree may have then.
