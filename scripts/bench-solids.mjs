@@ -28,7 +28,7 @@ const SIDES = {
   mambo_s34: 44,
   part: 73,
   Angled: 60,
-  nist_ctc_01: 80,
+  nist_ctc_01: 106,
   nist_ftc_11: 96,
   spot: 65,
   bunny: 56,

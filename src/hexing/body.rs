@@ -9,7 +9,7 @@
 //!    but does not show all is refined in its turn.
 //! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
-//!    octree, and 3 for that.
+//!    octree, and 2 for that.
 //!
 //! A mesh that misses nothing but is too far from the solid is first brought nearer with cells that are fair instead of good
 //! (`attempt`).
