@@ -13,6 +13,7 @@
 //!
 //! Refuses nothing: cells that stay inverted are listed in the report, for the caller to repair.
 
+mod ahead;
 mod constraint;
 mod energy;
 mod guide;

@@ -1,5 +1,6 @@
 //! One round over nodes: each is moved to where the energy around it is lower, if that keeps what is to be kept.
 
+use super::ahead::read_ahead;
 use super::energy::{Expansion, Weights};
 use super::guide::{Guide, Pull};
 use super::problem::Problem;
@@ -9,8 +10,9 @@ use crate::geometry::Point;
 use crate::parallel;
 use crate::{Cancelled, Monitor};
 
-/// Nodes between two questions whether to stop.
-const BATCH: usize = 4096;
+/// Nodes that are moved before those around them are woken, while their cells are still in the cache, and it is asked whether
+/// to stop.
+const BATCH: usize = 512;
 
 /// A step at most this share of the node's mean edge.
 const LONGEST: f64 = 0.5;
@@ -59,6 +61,7 @@ pub(crate) fn sweep(
                 return Err(Cancelled);
             }
             let found: Vec<Option<Step>> = parallel::collect_with(batch.len(), Star::default, |star, k| {
+                read_ahead(problem, batch, k);
                 relaxed(problem, batch[k], rules, star)
             });
             far.clear();

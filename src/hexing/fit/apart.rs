@@ -273,16 +273,25 @@ impl<'a> Apart<'a> {
 
     /// What is looked at around a node, and how far that is apart with the node where it is.
     pub(super) fn probes(&self, problem: &Problem, node: u32) -> Probes {
-        let at = problem.points[node as usize];
-        let patch = self.patch(problem, node, at);
+        let from = problem.points[node as usize];
+        let patch = self.patch(problem, node, from);
         let of_mesh = (0..patch.halves()).map(Probe::Middle).chain([Probe::Node]);
         let all = self.samples(node).map(|(own, p)| Probe::Sample(own, p)).chain(of_mesh);
-        let mut probes: Vec<(f64, Probe)> =
-            all.map(|probe| (self.distance_squared(&patch, at, probe), probe)).collect();
+        let mut probes: Vec<Probed> = all
+            .map(|probe| {
+                let squared = self.distance_squared(&patch, from, probe);
+                let reach = match probe {
+                    Probe::Sample(..) | Probe::Node => 1.0,
+                    Probe::Middle(half) if self.has(node, half) => 1.0 / 3.0,
+                    Probe::Middle(_) => 0.0,
+                };
+                Probed { probe, squared, distance: squared.sqrt(), reach }
+            })
+            .collect();
         // Stable: of those that are equally far the first.
-        probes.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let error = probes.iter().map(|(squared, _)| squared * squared).sum();
-        Probes { probes: probes.into_iter().map(|(_, probe)| probe).collect(), error }
+        probes.sort_by(|a, b| b.squared.total_cmp(&a.squared));
+        let error = probes.iter().map(|probed| probed.squared * probed.squared).sum();
+        Probes { from, probes, error }
     }
 
     /// What is apart with the node at `at`, if that is less than `limit`: the sum of the fourth powers of all distances, so
@@ -295,12 +304,23 @@ impl<'a> Apart<'a> {
         probes: &Probes,
         limit: f64,
     ) -> Option<f64> {
+        let moved = at.distance(probes.from);
+        // What the probes that were not looked at yet come to at least.
+        let mut rest: f64 = probes.probes.iter().map(|probed| probed.least(moved)).sum();
+        if rest >= limit {
+            return None;
+        }
         let patch = self.patch(problem, node, at);
         let mut error = 0.0;
-        for &probe in &probes.probes {
-            let squared = self.distance_squared(&patch, at, probe);
+        for probed in &probes.probes {
+            rest -= probed.least(moved);
+            let squared = if probed.reach == 0.0 {
+                probed.squared
+            } else {
+                self.distance_squared(&patch, at, probed.probe)
+            };
             error += squared * squared;
-            if error >= limit {
+            if error + rest.max(0.0) >= limit {
                 return None;
             }
         }
@@ -326,6 +346,12 @@ impl<'a> Apart<'a> {
         around.flat_map(|(own, &q)| self.samples[q as usize].iter().map(move |&p| (own, p)))
     }
 
+    /// Is the node a corner of this half of the quads around it?
+    fn has(&self, node: u32, half: usize) -> bool {
+        let [a, b, c, d] = self.quads[self.around[node as usize][half / 2] as usize];
+        [[a, b, c], [a, c, d]][half % 2].contains(&node)
+    }
+
     /// The quads around a node that stands at `at`.
     fn patch(&self, problem: &Problem, node: u32, at: Point) -> Patch {
         let place = |n: u32| if n == node { at } else { problem.points[n as usize] };
@@ -338,9 +364,28 @@ impl<'a> Apart<'a> {
 /// What is looked at to tell how far mesh and solid are apart around a node, what was farthest at first before all else:
 /// that tells soonest where it would be farther.
 pub(super) struct Probes {
-    probes: Vec<Probe>,
+    /// Where the node was at first.
+    from: Point,
+    probes: Vec<Probed>,
     /// What was apart at first.
     pub(super) error: f64,
+}
+
+/// How far a probe was apart at first, and squared, and the share of the node's way by which it may get nearer.
+struct Probed {
+    probe: Probe,
+    squared: f64,
+    distance: f64,
+    reach: f64,
+}
+
+impl Probed {
+    /// The least fourth power of its distance when the node has moved so far.
+    fn least(&self, moved: f64) -> f64 {
+        let distance = (self.distance - self.reach * moved).max(0.0);
+        let squared = distance * distance;
+        squared * squared
+    }
 }
 
 /// A place of mesh or solid near a node.
@@ -357,7 +402,7 @@ enum Probe {
 impl Probes {
     /// The samples of the solid that are farthest from the quads, the farthest first.
     pub(super) fn farthest_samples(&self) -> impl Iterator<Item = Point> + '_ {
-        self.probes.iter().filter_map(|probe| match probe {
+        self.probes.iter().filter_map(|probed| match &probed.probe {
             Probe::Sample(_, p) => Some(*p),
             _ => None,
         })
