@@ -2,9 +2,9 @@
 //! spares another attempt with smaller cells, which takes as long again and whose transitions cost cells as well.
 
 use super::super::correspondence::Correspondence;
-use super::apart::Survey;
 use super::near::Terms;
 use super::progress::Part;
+use super::survey::Survey;
 use super::target::OnSolid;
 use super::{APPROACH, FITTING, FitOptions, FitReport, Fitted, GOOD, course, off, quality};
 use crate::mesh::HexMesh;

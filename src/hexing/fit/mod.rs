@@ -41,6 +41,7 @@ mod rings;
 mod snap;
 mod soften;
 mod spread;
+mod survey;
 mod target;
 mod unlock;
 
@@ -52,7 +53,6 @@ use crate::mesh::{HexId, HexMesh, NodeId};
 use crate::optimize::{Evening, OptimizeOptions, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
-use apart::Survey;
 use even::even;
 pub(super) use finish::{FINISHED, FINISHING};
 use holds::{Hold, Holds};
@@ -64,6 +64,7 @@ use pull::{Course, pull};
 use rings::widen;
 use soften::soften;
 use spread::chains;
+use survey::Survey;
 #[cfg(test)]
 pub(super) use target::Foot;
 pub(super) use target::{OnSolid, Target};

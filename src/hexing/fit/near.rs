@@ -7,10 +7,11 @@
 //! solid farther from each other in the end is taken back.
 
 use super::super::correspondence::{Anchor, Correspondence};
-use super::apart::{Apart, Probes, Survey, mean_edge, mean_side, quads};
+use super::apart::{Apart, Probes};
 use super::holds::Hold;
 use super::progress::Part;
 use super::rings::widen;
+use super::survey::{Survey, mean_edge, mean_side, quads};
 use super::target::{OnSolid, Target};
 use super::{FITTING, LEAVE, quality};
 use crate::geometry::Point;

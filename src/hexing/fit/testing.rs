@@ -1,8 +1,8 @@
 //! A house for tests, with a ridge that is no feature.
 
 use super::super::correspondence::{Anchor, Correspondence};
-use super::apart::Survey;
 use super::holds::Hold;
+use super::survey::Survey;
 use crate::Silent;
 use crate::geometry::Point;
 use crate::mesh::{GridOptions, HexMesh, NodeId, PolygonMesh, hex_grid};
