@@ -136,8 +136,8 @@ impl<'a> Apart<'a> {
 
     /// Is the node a corner of this half of the quads around it?
     fn has(&self, node: u32, half: usize) -> bool {
-        let [a, b, c, d] = self.quads[self.around[node as usize][half / 2] as usize];
-        [[a, b, c], [a, c, d]][half % 2].contains(&node)
+        let quad = self.around[node as usize][half / 2] as usize;
+        halves(&self.quads[quad])[half % 2].contains(&node)
     }
 
     /// The quads around a node that stands at `at`.

@@ -1,6 +1,7 @@
 //! Parts of a problem that are judged each for itself: how far mesh and solid are from each other there.
 
 use super::holds::{Hold, Holds};
+use super::survey::halves;
 use crate::geometry::{Point, closest_on_triangle};
 use crate::mesh::topology::Sets;
 use crate::optimize::Problem;
@@ -27,7 +28,7 @@ pub(super) struct Mark {
 impl Mark {
     /// How far the boundary around its node is from it.
     fn distance(&self, problem: &Problem) -> f64 {
-        let halves = self.quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        let halves = self.quads.iter().flat_map(halves);
         let distance = |half: [u32; 3]| {
             let corners = half.map(|n| problem.points[n as usize]);
             closest_on_triangle(self.place, corners).distance(self.place)

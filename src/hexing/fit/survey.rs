@@ -209,8 +209,8 @@ pub(super) fn mean_side(quad: &[Point; 4]) -> f64 {
     (0..4).map(|k| quad[k].distance(quad[(k + 1) % 4])).sum::<f64>() / 4.0
 }
 
-/// A quad as two triangles.
-pub(super) fn halves(&[a, b, c, d]: &[Point; 4]) -> [[Point; 3]; 2] {
+/// A quad as two triangles, of its corners or what stands for these.
+pub(super) fn halves<T: Copy>(&[a, b, c, d]: &[T; 4]) -> [[T; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
 
