@@ -45,10 +45,14 @@ pub(super) fn curve_graph(
     for (c, &v) in corner_vertices.iter().enumerate() {
         corner_of[v as usize] = c as u32;
     }
-    let corner = |&vertex: &u32| Corner {
-        vertex,
-        point: shell.mesh.points[vertex as usize],
-        arms: arms_at[vertex as usize].iter().map(|&k| walk.place[k as usize].expect("walked")).collect(),
+    let corner = |&vertex: &u32| {
+        let arms = &arms_at[vertex as usize];
+        let arm = |(&k, sector)| Arm { sector, ..walk.place[k as usize].expect("walked") };
+        Corner {
+            vertex,
+            point: shell.mesh.points[vertex as usize],
+            arms: arms.iter().zip(sectors(shell, arms)).map(arm).collect(),
+        }
     };
     let curve = |chain: &Vec<u32>| curve(shell, normals, surface_of, &corner_of, chain);
     CurveGraph {
@@ -74,11 +78,25 @@ fn is_corner(shell: &Shell, arms: &[u32], cosine: f64) -> bool {
     }
 }
 
+/// The angles between these half-edges, which leave one vertex and are in their order there.
+fn sectors(shell: &Shell, arms: &[u32]) -> Vec<f64> {
+    let mut sectors: Vec<f64> = Vec::with_capacity(arms.len());
+    for k in shell.fan(arms[0]) {
+        if arms.get(sectors.len()) == Some(&k) {
+            sectors.push(0.0);
+        }
+        let [a, b] = [k, shell.around(k)].map(|k| shell.along(k));
+        *sectors.last_mut().expect("the first is an arm") += libm::atan2(a.cross(b).length(), a.dot(b));
+    }
+    sectors
+}
+
 struct Walk<'a> {
     shell: &'a Shell,
     arms_at: &'a [Vec<u32>],
     is_corner: &'a [bool],
-    /// For each half-edge that is walked, the curve of which it is part, and whether it runs along it or against it.
+    /// For each half-edge that is walked, the curve of which it is part, and whether it runs along it or against it. No
+    /// sectors yet.
     place: Vec<Option<Arm>>,
 }
 
@@ -89,8 +107,8 @@ impl Walk<'_> {
         let mut k = first;
         loop {
             let back = self.shell.twin(k);
-            self.place[k as usize] = Some(Arm { curve, at_start: true });
-            self.place[back as usize] = Some(Arm { curve, at_start: false });
+            self.place[k as usize] = Some(Arm { curve, at_start: true, sector: 0.0 });
+            self.place[back as usize] = Some(Arm { curve, at_start: false, sector: 0.0 });
             let vertex = self.shell.from(back) as usize;
             if self.is_corner[vertex] {
                 return chain;

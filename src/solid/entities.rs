@@ -24,12 +24,14 @@ pub struct Corner {
 }
 
 /// An end of a curve at a corner. A curve that comes back to its corner has two there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arm {
     /// The curve.
     pub curve: CurveId,
     /// Is it the curve's start, or its end?
     pub at_start: bool,
+    /// The angle between it and the next arm in radians: the sum of those of the triangles there.
+    pub sector: f64,
 }
 
 /// A chain of feature edges.

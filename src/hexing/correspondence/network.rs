@@ -10,6 +10,10 @@
 //!      / \                /|
 //!     c   f              c f
 //! ```
+//!
+//! The angles between them are kept too: at both sides of a curve that is given up they become one.
+
+use std::f64::consts::PI;
 
 use super::boundary::Boundary;
 use super::reduction::{CurveFate, LostCurve, Reason};
@@ -104,12 +108,20 @@ impl<'a> Network<'a> {
         // The corner with more curves stays.
         let stays = if (self.arms(b).len(), a) > (self.arms(a).len(), b) { b } else { a };
         let goes = if stays == a { b } else { a };
-        let mut joined = self.arms_after(stays, curve);
-        let of_other = self.arms_after(goes, curve);
+        let (mut joined, after) = self.arms_after(stays, curve);
+        let (of_other, after_other) = self.arms_after(goes, curve);
         for arm in &of_other {
             self.lengths[arm.curve.index()] += self.length(curve);
         }
+        // Along the curve it is half a turn at both of its sides.
+        let mut beside = after_other - PI;
+        if let Some(last) = joined.last_mut() {
+            last.sector += std::mem::take(&mut beside);
+        }
         joined.extend(of_other);
+        if let Some(last) = joined.last_mut() {
+            last.sector += beside + after - PI;
+        }
         self.arms[stays.index()] = joined;
         self.arms[goes.index()].clear();
         self.joined_to[goes.index()] = stays;
@@ -119,17 +131,28 @@ impl<'a> Network<'a> {
     /// Gives a curve up: nothing stands for it.
     pub fn suppress(&mut self, curve: CurveId, reason: Reason) {
         for end in self.ends(curve).into_iter().flatten() {
-            self.arms[end.index()].retain(|arm| arm.curve != curve);
+            self.remove(end, curve);
         }
         self.give_up(curve, CurveFate::Suppressed, reason);
     }
 
-    /// The arms of a corner from the one after `curve` to the one before it.
-    fn arms_after(&self, corner: CornerId, curve: CurveId) -> Vec<Arm> {
+    /// Takes the arms of a curve away from a corner.
+    fn remove(&mut self, corner: CornerId, curve: CurveId) {
+        let arms = &mut self.arms[corner.index()];
+        while let Some(at) = arms.iter().position(|arm| arm.curve == curve) {
+            let Arm { sector, .. } = arms.remove(at);
+            if let Some(before) = at.checked_sub(1).or(arms.len().checked_sub(1)) {
+                arms[before].sector += sector;
+            }
+        }
+    }
+
+    /// The arms of a corner from the one after `curve` to the one before it, and the angle before the first of them.
+    fn arms_after(&self, corner: CornerId, curve: CurveId) -> (Vec<Arm>, f64) {
         let arms = self.arms(corner);
         let at = arms.iter().position(|arm| arm.curve == curve).unwrap_or(0);
         let around = arms[at..].iter().chain(&arms[..at]);
-        around.filter(|arm| arm.curve != curve).copied().collect()
+        (around.filter(|arm| arm.curve != curve).copied().collect(), arms[at].sector)
     }
 
     fn give_up(&mut self, curve: CurveId, fate: CurveFate, reason: Reason) {
@@ -211,5 +234,49 @@ pub(super) fn give_up_short(network: &mut Network, boundary: &Boundary) {
         let arms = corners.into_iter().flatten().flat_map(|c| network.arms(network.corner(c)).to_vec());
         let closed: Vec<CurveId> = arms.map(|arm| arm.curve).collect();
         queue.extend(closed.into_iter().map(|c| (network.length(c).to_bits(), c)));
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::solid::testing::{ell, solid};
+
+    fn around(network: &Network, corner: CornerId) -> f64 {
+        network.arms(corner).iter().map(|arm| arm.sector).sum()
+    }
+
+    /// An angle is lost nowhere; along what is contracted it is half a turn on both sides.
+    #[test]
+    fn the_angles_beside_a_curve_become_one() {
+        let solid = solid(&ell());
+        for curve in (0..solid.curves().len()).map(CurveId::new) {
+            let mut network = Network::of(&solid);
+            let ends @ [a, b] = network.ends(curve).unwrap();
+            let before = ends.map(|end| around(&network, end));
+            network.suppress(curve, Reason::Costly);
+            let after = ends.map(|end| around(&network, end));
+            assert!((0..2).all(|k| (before[k] - after[k]).abs() < 1e-12), "{before:?} {after:?}");
+            assert!(ends.iter().all(|&end| network.arms(end).len() == 2));
+
+            let expected = before[0] + before[1] - 2.0 * PI;
+            let mut network = Network::of(&solid);
+            network.contract(curve, Reason::Short);
+            let joined = network.corner(a);
+            assert_eq!((network.arms(joined).len(), joined), (4, network.corner(b)));
+            assert!((around(&network, joined) - expected).abs() < 1e-12);
+
+            // The same where no other curve is left at one of its ends.
+            for end in ends {
+                let mut network = Network::of(&solid);
+                for arm in solid.corners()[end.index()].arms.iter().filter(|arm| arm.curve != curve) {
+                    network.suppress(arm.curve, Reason::Costly);
+                }
+                network.contract(curve, Reason::Short);
+                let joined = network.corner(end);
+                assert_eq!(network.arms(joined).len(), 2);
+                assert!((around(&network, joined) - expected).abs() < 1e-12);
+            }
+        }
     }
 }

@@ -1,13 +1,15 @@
 //! Which nodes stand for the stops, and along which edges the legs leave them.
 //!
 //! 1. Each stop looks at boundary nodes near it: how near, how well its arms fit the edges there in their cyclic order,
-//!    and the surface's normal (paper 5.2.1 scores by the Jacobian after moving the node; this needs no move).
+//!    how well the quads between fill the angles between arms, and the surface's normal (paper 5.2.1 scores by the Jacobian
+//!    after moving the node; this needs no move).
 //! 2. Stops that want the same node share out the nodes near them at the least cost.
 //! 3. With all nodes known the arms are chosen once more: none may lead to another stop's node, but for the leg
 //!    between the two where that is about an edge long, and two legs of different curves had better not begin with
 //!    the same node.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::FRAC_PI_2;
 
 use super::arms::assign_arms;
 use super::boundary::{Boundary, NONE};
@@ -32,6 +34,11 @@ const NORMAL: f64 = 0.4;
 
 /// Weight of the angle inside the solid along an arm, against its direction.
 const FOLD: f64 = 0.15;
+
+/// Weight of what quads lack that share the angle between two arms. None at a cusp, where arms leave at a less angle than this,
+/// in degrees: no number of quads is right there.
+const SECTOR: f64 = 1.0;
+const CUSP: f64 = 25.0;
 
 /// A leg shorter than this many edges runs along the edge between two stops' nodes, if there is one.
 const DIRECT: f64 = 1.8;
@@ -159,7 +166,12 @@ impl Placer<'_> {
     /// The best edges at a node for the arms of a stop.
     fn fit(&self, stop: u32, node: u32, value: &Fit) -> Option<(f64, Vec<u32>)> {
         let arms = self.stops[stop as usize].arms.len();
-        let (sum, places) = assign_arms(arms, self.boundary.valence(node), value)?;
+        let sectors: Vec<f64> = self.stops[stop as usize].arms.iter().map(|arm| arm.sector).collect();
+        let is_cusp = sectors.iter().any(|sector| sector.to_degrees() < CUSP);
+        let between = |arm: usize, quads: usize| {
+            if is_cusp { 0.0 } else { -SECTOR * lack(sectors[arm] / quads as f64) }
+        };
+        let (sum, places) = assign_arms(arms, self.boundary.valence(node), value, between)?;
         let first = self.boundary.first_spoke(node);
         Some((sum, places.into_iter().map(|k| first + k as u32).collect()))
     }
@@ -244,6 +256,11 @@ impl Placer<'_> {
         }
         direct
     }
+}
+
+/// What a quad lacks with such an angle, in radians: 0 at a right angle, and most from three of them on.
+fn lack(angle: f64) -> f64 {
+    1.0 - libm::sin(angle.min(3.0 * FRAC_PI_2))
 }
 
 /// Two stops, the lesser first.

@@ -3,6 +3,8 @@
 //! A stop is a corner, or a place on a closed curve that has no corner: three or four of them, for routing only. A leg
 //! is what of a curve lies between two stops.
 
+use std::f64::consts::TAU;
+
 use super::network::Network;
 use crate::geometry::Point;
 use crate::solid::{CornerId, CurveId};
@@ -29,6 +31,8 @@ pub(super) struct StopArm {
     pub leg: u32,
     /// Where the leg leads, as a unit vector.
     pub direction: Point,
+    /// The angle between it and the next arm in radians, as far away as the direction is looked up.
+    pub sector: f64,
 }
 
 /// What of a curve lies between two stops.
@@ -81,7 +85,11 @@ pub(super) fn stops_and_legs(network: &Network, length_near: impl Fn(Point) -> f
             legs[leg as usize].arms[usize::from(!arm.at_start)] = place;
             let along = reach.min(0.5 * solid.curves()[arm.curve.index()].length);
             let direction = direction(network, arm.curve, arm.at_start, along, at);
-            stop.arms.push(StopArm { leg, direction });
+            stop.arms.push(StopArm { leg, direction, sector: arm.sector });
+        }
+        let directions: Vec<Point> = stop.arms.iter().map(|arm| arm.direction).collect();
+        for (k, arm) in stop.arms.iter_mut().enumerate() {
+            arm.sector = sector(directions[k], directions[(k + 1) % directions.len()], arm.sector);
         }
     }
     (stops, legs)
@@ -108,6 +116,13 @@ fn close(
     }
 }
 
+/// The angle from one direction to another: the lesser one, or what it lacks to a whole turn if that is nearer to the angle
+/// `at` the corner.
+fn sector(from: Point, to: Point, at: f64) -> f64 {
+    let lesser = libm::atan2(from.cross(to).length(), from.dot(to));
+    if (TAU - lesser - at).abs() < (lesser - at).abs() { TAU - lesser } else { lesser }
+}
+
 /// Where a curve leads from the corner `at` that stands at one of its ends. For one whose own corner was joined to
 /// another, from that other.
 fn direction(network: &Network, curve: CurveId, at_start: bool, along: f64, at: Point) -> Point {
@@ -118,4 +133,24 @@ fn direction(network: &Network, curve: CurveId, at_start: bool, along: f64, at: 
         return direction;
     }
     (network.point_along(curve, 0.5 * whole) - at).normalize_or_zero()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use super::*;
+
+    #[test]
+    fn a_sector_is_the_lesser_or_the_greater_angle_as_at_the_corner() {
+        let (from, to) = (Point::X, Point::Y);
+        for (at, expected) in
+            [(1.2, FRAC_PI_2), (3.0, FRAC_PI_2), (3.3, 3.0 * FRAC_PI_2), (5.0, 3.0 * FRAC_PI_2)]
+        {
+            assert!((sector(from, to, at) - expected).abs() < 1e-12, "{at}");
+        }
+        assert!((sector(from, -from, 3.0) - PI).abs() < 1e-12);
+        // The only arm of a corner has all around it.
+        assert!((sector(from, from, 6.0) - TAU).abs() < 1e-12);
+    }
 }

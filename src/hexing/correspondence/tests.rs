@@ -203,3 +203,30 @@ fn steps_far_lower_than_edges_are_given_up() {
         check(&core(&high, 1.0), &high, [high.curves().len(), 0, 0]);
     }
 }
+
+/// The angles of quads at the solid's corners in degrees, if those between two arms share theirs evenly.
+fn shares(solid: &SolidModel, on: &Correspondence) -> Vec<f64> {
+    let mut shares = Vec::new();
+    for (node, anchor) in on.anchors.iter().enumerate() {
+        let Anchor::Corner(corner) = anchor else { continue };
+        for arm in &solid.corners()[corner.index()].arms {
+            let surface = solid.curves()[arm.curve.index()].sides[usize::from(!arm.at_start)];
+            let is_there =
+                |(quad, on): &&([NodeId; 4], SurfaceId)| *on == surface && quad.contains(&NodeId::new(node));
+            shares.push(arm.sector.to_degrees() / on.faces.iter().filter(is_there).count() as f64);
+        }
+    }
+    shares
+}
+
+/// Of the nodes near a corner one would do as well otherwise, but has two quads where there is room for one.
+#[test]
+fn corners_have_as_many_quads_as_their_angles_have_room_for() {
+    for angle in [0.2, 0.5] {
+        let solid = solid(&turned(pyramid(3), angle));
+        let mesh = core(&solid, solid.bounds().size().max_element() / 12.0);
+        let shares = shares(&solid, &correspond(&mesh, &solid, &Silent).unwrap());
+        assert_eq!(shares.len(), 12);
+        assert!(shares.iter().all(|&share| share > 35.0), "{shares:?}");
+    }
+}

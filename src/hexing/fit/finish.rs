@@ -1,5 +1,6 @@
 //! Raises the mean of a mesh that is kept once more: what is inside is smoothed, and what slides within a plane, which takes
-//! mesh and solid no farther from each other.
+//! mesh and solid no farther from each other. Beside nodes that are off the solid it might: there planes go on beyond their
+//! surface.
 
 use super::super::correspondence::{Anchor, Correspondence};
 use super::even::even;
@@ -28,9 +29,15 @@ impl Fitted {
         solid: &SolidModel,
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
+        let mut is_beside = vec![false; mesh.positions.len()];
+        for (quad, _) in &on.faces {
+            if quad.iter().any(|n| self.holds[n.index()].is_off()) {
+                quad.iter().for_each(|n| is_beside[n.index()] = true);
+            }
+        }
         let slides = |n: NodeId| match on.anchors[n.index()] {
             Anchor::Inside => true,
-            Anchor::Surface(s) => {
+            Anchor::Surface(s) if !is_beside[n.index()] => {
                 let is_planar = matches!(solid.surfaces()[s.index()].class, SurfaceClass::Planar { .. });
                 is_planar && on.reduction.members(s) == [s] && self.holds[n.index()] == Hold::Held
             }
@@ -45,7 +52,8 @@ impl Fitted {
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
-    use super::super::{FitOptions, fit};
+    use super::super::testing::held;
+    use super::super::{FitOptions, FitReport, fit};
     use super::*;
     use crate::Silent;
     use crate::geometry::Point;
@@ -92,5 +100,29 @@ mod tests {
             let stays = matches!(anchor, Anchor::Curve(_) | Anchor::Corner(_));
             assert!(!stays || mesh.positions[n] == pushed[n], "{anchor:?}");
         }
+    }
+
+    /// Nodes of a side were pushed apart; one of them is beside a node that is off its curve.
+    #[test]
+    fn nodes_beside_what_is_off_the_solid_stay_where_they_are() {
+        let solid = solid(&cuboid([6, 6, 6]));
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: true, max_hexes: 1000 };
+        let mut mesh = hex_grid(solid.bounds(), &options).unwrap();
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let node = |x: f64| {
+            let place = Point::new(x, 3.0, 6.0);
+            mesh.positions.iter().position(|&q| q.distance(place) < 1e-9).unwrap()
+        };
+        let ([edge, beside, other], mut holds) = ([0.0, 1.0, 5.0].map(node), held(&on));
+        holds[edge] = Hold::Leashed;
+        let pushed = [beside, other].map(|n| {
+            mesh.positions[n] += Point::new(0.0, 0.3, 0.0);
+            mesh.positions[n]
+        });
+        let far = vec![false; mesh.positions.len()];
+        let mut fitted = Fitted { report: FitReport::default(), holds, far };
+        fitted.finish(&mut mesh, &on, &solid, &Silent).unwrap();
+        assert_eq!(mesh.positions[beside], pushed[0]);
+        assert!(mesh.positions[other].distance(pushed[1]) > 0.1, "{}", mesh.positions[other]);
     }
 }

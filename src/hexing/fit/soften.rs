@@ -55,7 +55,7 @@ const ROUNDS: usize = 12;
 const RINGS: usize = 3;
 
 /// How the cells there are smoothed.
-const SMOOTHING: OptimizeOptions =
+pub(super) const SMOOTHING: OptimizeOptions =
     OptimizeOptions { target: 0.65, untangle_sweeps: 0, courses: 5, smooth_sweeps: 6, worst_sweeps: 20 };
 
 /// Mends what can be mended; nodes leave where they belong by no more than half of `max_distance`, if they are not farther

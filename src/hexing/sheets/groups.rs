@@ -1,10 +1,8 @@
 //! Surfaces in groups: those that meet so flatly, or at a concave curve, that one sheet has to lie over all of them.
 
-use std::collections::BTreeMap;
-
 use super::super::correspondence::{Anchor, Reduction};
 use crate::mesh::topology::Sets;
-use crate::solid::{CornerId, CurveId, SolidModel, SurfaceId};
+use crate::solid::{Arm, Corner, CornerId, CurveId, SolidModel, SurfaceId};
 
 /// Surfaces that meet at a greater angle inside the solid than this belong to one group, in degrees; so do those on both
 /// sides of a sector of a surface that is wider than this at a corner. One hex at such a place would be nearly flat or
@@ -102,55 +100,20 @@ struct Sector {
     beside: [SurfaceId; 2],
 }
 
-/// The sectors of all corners, by walking the fans of triangles from arm to arm.
-fn sectors(solid: &SolidModel) -> Vec<Sector> {
-    let vertices: BTreeMap<u32, usize> =
-        solid.corners().iter().enumerate().map(|(c, corner)| (corner.vertex, c)).collect();
-    // For each corner the fan: from a vertex around it to the next, with the angle between and the triangle's surface.
-    let mut fans: Vec<BTreeMap<u32, (u32, f64, SurfaceId)>> = vec![BTreeMap::new(); vertices.len()];
-    for (t, triangle) in solid.triangles().iter().enumerate() {
-        for k in 0..3 {
-            let [at, from, to] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| triangle[k]);
-            if let Some(&c) = vertices.get(&at) {
-                let [p, a, b] = [at, from, to].map(|v| solid.points()[v as usize]);
-                let (a, b) = (a - p, b - p);
-                let degrees = libm::atan2(a.cross(b).length(), a.dot(b)).to_degrees();
-                fans[c].insert(from, (to, degrees, solid.surface_of(t)));
-            }
-        }
-    }
-    let mut all = Vec::new();
-    for (c, corner) in solid.corners().iter().enumerate() {
-        let ends: Vec<u32> = corner
-            .arms
-            .iter()
-            .map(|arm| {
-                let vertices = &solid.curves()[arm.curve.index()].vertices;
-                if arm.at_start { vertices[1] } else { vertices[vertices.len() - 2] }
-            })
-            .collect();
-        let walk = |from: u32, to: u32| {
-            let (mut at, mut degrees, mut surface) = (from, 0.0, None);
-            for _ in 0..fans[c].len() {
-                let &(next, angle, on) = fans[c].get(&at)?;
-                (at, degrees, surface) = (next, degrees + angle, surface.or(Some(on)));
-                if at == to {
-                    return Some((degrees, surface?));
-                }
-            }
-            None
+/// The sectors of all corners.
+fn sectors(solid: &SolidModel) -> impl Iterator<Item = Sector> {
+    // A curve's left side comes after it where it starts, its right side where it ends.
+    let surface = |arm: &Arm| solid.curves()[arm.curve.index()].sides[usize::from(!arm.at_start)];
+    (0..).map(CornerId).zip(solid.corners()).flat_map(move |(corner, Corner { arms, .. })| {
+        let count = arms.len();
+        let sector = move |k: usize| Sector {
+            corner,
+            surface: surface(&arms[k]),
+            degrees: arms[k].sector.to_degrees(),
+            beside: [k + count - 1, k + 1].map(|k| surface(&arms[k % count])),
         };
-        let found: Vec<Option<(f64, SurfaceId)>> =
-            (0..ends.len()).map(|i| walk(ends[i], ends[(i + 1) % ends.len()])).collect();
-        let count = found.len();
-        for (i, sector) in found.iter().enumerate() {
-            let (before, after) = (found[(i + count - 1) % count], found[(i + 1) % count]);
-            if let (&Some((degrees, surface)), Some((_, a)), Some((_, b))) = (sector, before, after) {
-                all.push(Sector { corner: CornerId::new(c), surface, degrees, beside: [a, b] });
-            }
-        }
-    }
-    all
+        (0..count).map(sector)
+    })
 }
 
 #[cfg(test)]

@@ -332,6 +332,13 @@ fn a_thin_curve_gets_one_hex() {
     assert!(wedges_between(cube, &[0, 1, 2, 3, 4, 5], nothing) >= 3);
 }
 
+/// The row on the side of the first curve that ends at a flat one would be shorter.
+#[test]
+fn a_wedge_turns_to_the_next_thin_curve() {
+    let is_flat = |a: Point, b: Point| [a, b].iter().all(|p| p.y == 4.0 && p.z == 4.0);
+    assert_eq!(wedges_between(voxels(&cubes(4, |_| true)), &[1, 3, 5], is_flat), 1);
+}
+
 /// An edge that stands upright on a plate, with flat curves at its foot.
 #[test]
 fn a_thin_curve_ends_at_flat_ones() {

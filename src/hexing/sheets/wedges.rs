@@ -13,7 +13,8 @@
 //! 1. The row: the edges of a thin curve with two hexes. Where the row would end at a curve that is sharp too and has two
 //!    hexes as well, it turns there: a third hex would be as thin.
 //! 2. The hexes at the row draw back from the others, and from the quads on one side of it (`shrink`). The side is that
-//!    with the shorter row, or else the other.
+//!    where the row does more: where it turns to another thin curve this needs no wedge of its own, and there stays one hex
+//!    at the corner between them. Else it is the shorter row; where that would be pinched, the other.
 
 use std::collections::BTreeSet;
 
@@ -46,7 +47,7 @@ pub(super) fn insert(
     for curve in thin {
         monitor.proceed()?;
         let mut torn = Vec::new();
-        for Row { hexes, covered } in rows(curve, &Look::new(mesh, on, boundary, groups)) {
+        for Row { hexes, covered, .. } in rows(curve, &Look::new(mesh, on, boundary, groups)) {
             match pillow(mesh, on, boundary, &ShrinkSet::Hexes { hexes: &hexes, covered: &covered }) {
                 Ok(layer) => {
                     layers.push(layer, Purpose::Wedge(curve));
@@ -65,9 +66,18 @@ pub(super) fn insert(
 struct Row {
     hexes: Vec<u32>,
     covered: Vec<u32>,
+    /// How many edges of thin curves it is along.
+    thin: usize,
 }
 
-/// The rows along a curve, one on each of its sides, the shorter one first.
+impl Row {
+    /// How many quads it takes beyond those that wedges at each of its thin edges would.
+    fn cost(&self) -> isize {
+        self.covered.len() as isize - 2 * self.thin as isize
+    }
+}
+
+/// The rows along a curve, one on each of its sides, the better one first.
 fn rows(curve: CurveId, look: &Look<'_>) -> Vec<Row> {
     let mut edges = look.curve_edges();
     edges.retain(|edge| edge.hexes == 2);
@@ -79,7 +89,7 @@ fn rows(curve: CurveId, look: &Look<'_>) -> Vec<Row> {
     let sides = Sides::of(look.on, look.boundary);
     let row = |on: SurfaceId| Walk { look, sides: &sides, edges: &edges, on }.row(&along);
     let mut rows: Vec<Row> = surfaces.into_iter().filter_map(row).collect();
-    rows.sort_by_key(|row| row.covered.len());
+    rows.sort_by_key(|row| (row.cost(), row.covered.len()));
     rows
 }
 
@@ -116,7 +126,10 @@ impl Walk<'_> {
             }
         }
         let hexes = self.look.boundary.hexes(covered.iter().chain(&beside).copied());
-        Some(Row { hexes, covered: covered.into_iter().collect() })
+        let is_thin =
+            |&(edge, &reached): &(&CurveEdge, &bool)| reached && self.look.groups.is_thin(edge.curve);
+        let thin = self.edges.iter().zip(&reached).filter(is_thin).count();
+        Some(Row { hexes, covered: covered.into_iter().collect(), thin })
     }
 
     /// The quad of an edge on the surface, and that across.

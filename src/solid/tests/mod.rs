@@ -20,6 +20,16 @@ fn check_counts(surface: &PolygonMesh, expected: (usize, usize, usize, i64)) -> 
     solid
 }
 
+/// The angles of the triangles at a vertex, in radians.
+fn angle_around(solid: &SolidModel, vertex: u32) -> f64 {
+    let of_triangle = |t: usize| {
+        let k = solid.triangles()[t].iter().position(|&v| v == vertex)?;
+        let [at, a, b] = [k, k + 1, k + 2].map(|k| solid.corners_of(t)[k % 3]);
+        Some((a - at).angle_between(b - at))
+    };
+    (0..solid.triangles().len()).filter_map(of_triangle).sum()
+}
+
 /// What holds in every model.
 #[track_caller]
 fn check_graph(solid: &SolidModel) {
@@ -27,6 +37,8 @@ fn check_graph(solid: &SolidModel) {
     for (c, corner) in solid.corners().iter().enumerate() {
         assert_eq!(solid.points()[corner.vertex as usize], corner.point);
         arms.extend(corner.arms.iter().map(|arm| (arm.curve, arm.at_start, CornerId::new(c))));
+        let sectors: f64 = corner.arms.iter().map(|arm| arm.sector).sum();
+        assert!((sectors - angle_around(solid, corner.vertex)).abs() < 1e-9, "sectors of corner {c}");
         // Between two arms, counter-clockwise, lies one surface: left of what leaves, right of what comes next.
         for (a, b) in corner.arms.iter().zip(corner.arms.iter().cycle().skip(1)) {
             let left = solid.curves()[a.curve.index()].sides[usize::from(!a.at_start)];
@@ -60,6 +72,10 @@ fn prisms_have_the_features_that_one_sees() {
     let ell = check_counts(&ell(), (12, 18, 8, 2));
     let angles: Vec<f64> = ell.curves().iter().map(|c| c.interior_angle.round()).collect();
     assert_eq!(angles.iter().filter(|&&a| a == 270.0).count(), 1, "{angles:?}");
+    let sectors =
+        ell.corners().iter().flat_map(|corner| &corner.arms).map(|arm| arm.sector.to_degrees().round());
+    let sectors: Vec<f64> = sectors.collect();
+    assert_eq!([90.0, 270.0].map(|a| sectors.iter().filter(|&&sector| sector == a).count()), [34, 2]);
     check_counts(&holed(), (16, 24, 10, 0));
     let round = check_counts(&cylinder(24), (0, 2, 3, 2));
     assert!(round.curves().iter().all(|c| c.ends.is_none() && !c.is_straight));
