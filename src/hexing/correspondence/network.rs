@@ -152,7 +152,10 @@ impl<'a> Network<'a> {
         let arms = self.arms(corner);
         let at = arms.iter().position(|arm| arm.curve == curve).unwrap_or(0);
         let around = arms[at..].iter().chain(&arms[..at]);
-        (around.filter(|arm| arm.curve != curve).copied().collect(), arms[at].sector)
+        (
+            around.filter(|arm| arm.curve != curve).copied().collect(),
+            arms.get(at).map_or(0.0, |arm| arm.sector),
+        )
     }
 
     fn give_up(&mut self, curve: CurveId, fate: CurveFate, reason: Reason) {

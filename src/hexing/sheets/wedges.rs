@@ -71,7 +71,8 @@ struct Row {
 }
 
 impl Row {
-    /// How many quads it takes beyond those that wedges at each of its thin edges would.
+    /// The quads that it takes, less two for each thin edge: a wedge of its own would take a quad there, and where such
+    /// wedges meet they leave hexes for which there is no room.
     fn cost(&self) -> isize {
         self.covered.len() as isize - 2 * self.thin as isize
     }
