@@ -11,9 +11,8 @@ use crate::{Cancelled, Monitor, Silent, parallel};
 /// No node of the problem.
 const NONE: u32 = u32::MAX;
 
-/// Nodes that are swept before the next, all of their colours: what they and the cells around them take stays in a
-/// processor's cache from colour to colour.
-const BLOCK: u32 = 1 << 12;
+/// Nodes that are coloured between two questions whether to stop.
+const ASKED: u32 = 1 << 14;
 
 /// The cells around the movable nodes. Nodes of the problem are numbered in the mesh's order, movable ones first.
 pub(crate) struct Problem {
@@ -33,7 +32,7 @@ pub(crate) struct Problem {
     /// Where the cells of each movable node start in `around`: eight times a cell, and which of its corners the node is.
     starts: Vec<u32>,
     around: Vec<u32>,
-    /// Movable nodes, block by block, each by colour, ascending: two of one colour share no cell. Sweeps follow this order.
+    /// Movable nodes by colour, ascending: two of one colour share no cell. Sweeps follow this order.
     pub(crate) colours: Vec<Vec<u32>>,
 }
 
@@ -187,7 +186,7 @@ impl Problem {
         Ok(State { jacobians: self.scaled_jacobians(monitor)?, positive: self.positive.clone() })
     }
 
-    /// Has the nodes of lower rank swept first: colours are split by ranks, which are below `ranks`.
+    /// Has the nodes of lower rank swept first in each block: colours are split by ranks, which are below `ranks`.
     pub(crate) fn order_by(&mut self, ranks: usize, rank: impl Fn(NodeId) -> usize) {
         let colours = std::mem::take(&mut self.colours);
         for wanted in 0..ranks {
@@ -198,15 +197,14 @@ impl Problem {
         }
     }
 
-    /// Greedy colours in the order of nodes, of each block for itself.
+    /// Greedy colours in the order of nodes.
     fn colour(&self, monitor: &dyn Monitor) -> Result<Vec<Vec<u32>>, Cancelled> {
         let mut colour_of = vec![NONE; self.movable()];
+        let mut colours: Vec<Vec<u32>> = Vec::new();
         let mut taken_by: Vec<u32> = Vec::new();
-        let (mut colours, mut of_block): (Vec<Vec<u32>>, Vec<Vec<u32>>) = (Vec::new(), Vec::new());
         for node in 0..self.movable() as u32 {
-            if node.is_multiple_of(BLOCK) {
+            if node.is_multiple_of(ASKED) {
                 monitor.proceed()?;
-                colours.append(&mut of_block);
             }
             for (cell, _) in self.star(node) {
                 for other in self.cells[cell] {
@@ -217,16 +215,14 @@ impl Problem {
                     }
                 }
             }
-            let colour = taken_by.iter().position(|&by| by != node).unwrap_or(taken_by.len());
-            if colour == taken_by.len() {
+            let colour = taken_by.iter().position(|&by| by != node).unwrap_or(colours.len());
+            if colour == colours.len() {
+                colours.push(Vec::new());
                 taken_by.push(NONE);
             }
-            of_block.resize(taken_by.len(), Vec::new());
             colour_of[node as usize] = colour as u32;
-            of_block[colour].push(node);
+            colours[colour].push(node);
         }
-        colours.append(&mut of_block);
-        colours.retain(|nodes| !nodes.is_empty());
         Ok(colours)
     }
 

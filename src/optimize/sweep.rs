@@ -1,5 +1,7 @@
 //! One round over nodes: each is moved to where the energy around it is lower, if that keeps what is to be kept.
 
+use std::ops::Range;
+
 use super::ahead::read_ahead;
 use super::energy::{Expansion, Weights};
 use super::guide::{Guide, Pull};
@@ -13,6 +15,10 @@ use crate::{Cancelled, Monitor};
 /// Nodes that are moved before those around them are woken, while their cells are still in the cache, and it is asked whether
 /// to stop.
 const BATCH: usize = 512;
+
+/// Nodes that are awake and swept before the next, all of their colours: what they and the cells around them take stays in a
+/// processor's cache from colour to colour.
+const BLOCK: usize = 1 << 12;
 
 /// A step at most this share of the node's mean edge.
 const LONGEST: f64 = 0.5;
@@ -42,7 +48,7 @@ pub(crate) struct Rules<'a> {
     pub(crate) asleep: f64,
 }
 
-/// Moves the nodes that are `awake`, colour by colour. A node falls asleep when it hardly moves, and wakes its
+/// Moves the nodes that are `awake`, colour by colour, in blocks. A node falls asleep when it hardly moves, and wakes its
 /// neighbours among the `allowed` when it does. The nodes that moved, and how many of them far.
 pub(crate) fn sweep(
     problem: &mut Problem,
@@ -53,9 +59,9 @@ pub(crate) fn sweep(
 ) -> Result<Moved, Cancelled> {
     let mut moved = Moved::default();
     let mut far = Vec::new();
-    for colour in 0..problem.colours.len() {
-        let nodes: Vec<u32> =
-            problem.colours[colour].iter().copied().filter(|&n| awake[n as usize]).collect();
+    for (colour, places) in parts(problem, awake) {
+        let part = problem.colours[colour][places].iter().copied();
+        let nodes: Vec<u32> = part.filter(|&n| awake[n as usize]).collect();
         for batch in nodes.chunks(BATCH) {
             if monitor.cancelled() {
                 return Err(Cancelled);
@@ -79,6 +85,22 @@ pub(crate) fn sweep(
         }
     }
     Ok(moved)
+}
+
+/// The parts of the colours, in the order of a round: of each block of nodes one of each colour.
+fn parts(problem: &Problem, awake: &[bool]) -> Vec<(usize, Range<usize>)> {
+    let is_awake = (0u32..).zip(awake).filter(|&(_, &awake)| awake).map(|(node, _)| node);
+    let mut bounds: Vec<u32> = is_awake.step_by(BLOCK).collect();
+    bounds.push(problem.movable() as u32);
+    let mut parts = Vec::new();
+    for block in bounds.windows(2) {
+        for (colour, nodes) in problem.colours.iter().enumerate() {
+            let place = |bound: u32| nodes.partition_point(|&n| n < bound);
+            let places = place(block[0])..place(block[1]);
+            parts.extend((!places.is_empty()).then_some((colour, places)));
+        }
+    }
+    parts
 }
 
 /// What a round did.
@@ -191,4 +213,46 @@ fn newton(energy: Expansion, tangent: Symmetric, size: f64) -> Option<Point> {
         added = if added == 0.0 { 1e-3 } else { added * 4.0 };
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Aabb;
+    use crate::mesh::{GridOptions, hex_grid};
+
+    #[test]
+    fn a_block_has_so_many_nodes_that_are_awake() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 10_000 };
+        let mesh = hex_grid(Aabb { min: Point::ZERO, max: Point::splat(21.0) }, &options).unwrap();
+        let problem = Problem::new(&mesh.positions, &mesh.hexes, &|_| true);
+        let nodes = problem.movable();
+        assert!(2 * BLOCK < nodes && nodes < 3 * BLOCK);
+        for (one_in, expected) in [(1, 3), (2, 2), (3, 1)] {
+            let awake: Vec<bool> = (0..nodes).map(|n| n.is_multiple_of(one_in)).collect();
+            let (mut blocks, mut swept): (Vec<Vec<u32>>, Vec<u32>) = (Vec::new(), Vec::new());
+            let mut last = problem.colours.len();
+            for (colour, places) in parts(&problem, &awake) {
+                if colour <= last {
+                    blocks.push(Vec::new());
+                }
+                last = colour;
+                let part = &problem.colours[colour][places];
+                let mut cells: Vec<usize> =
+                    part.iter().flat_map(|&n| problem.star(n).map(|(cell, _)| cell)).collect();
+                let all = cells.len();
+                cells.sort_unstable();
+                cells.dedup();
+                assert_eq!(cells.len(), all, "two of a part share a cell");
+                blocks.last_mut().unwrap().extend(part.iter().filter(|&&n| awake[n as usize]));
+                swept.extend(part.iter().filter(|&&n| awake[n as usize]));
+            }
+            assert_eq!(blocks.len(), expected);
+            let (last, whole) = blocks.split_last().unwrap();
+            assert!(whole.iter().all(|block| block.len() == BLOCK) && last.len() <= BLOCK);
+            assert!(blocks.is_sorted_by(|a, b| a.iter().max() < b.iter().min()));
+            swept.sort_unstable();
+            assert!(swept.into_iter().eq((0..nodes as u32).filter(|&n| awake[n as usize])));
+        }
+    }
 }

@@ -119,37 +119,44 @@ mod tests {
     use crate::Silent;
     use crate::hexing::correspondence::correspond;
 
-    /// The ridge of the house turns so much that good cells do not follow it.
-    #[test]
-    fn cells_become_fair_for_the_sake_of_distance() {
-        let (solid, mut mesh) = house(0.5);
+    /// Distance, worst cell and sweeps.
+    type Came = (f64, f64, usize);
+
+    /// What comes of approaching with a house whose ridge turns so much that good cells do not follow it.
+    fn approached(aside: f64, near: f64, fair: f64) -> Came {
+        let (solid, mut mesh) = house(aside);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let target = OnSolid::new(&solid, &on.reduction);
         for (place, &anchor) in mesh.positions.iter_mut().zip(&on.anchors) {
             *place = target.foot(anchor, *place).map_or(*place, |foot| foot.point);
         }
         assert!(farthest(&mesh, &on, &solid) > 0.1);
+        let far = vec![true; mesh.positions.len()];
+        let fitted = Fitted { report: FitReport::default(), holds: held(&on), far };
+        let options = FitOptions { near, fair, ..FitOptions::default() };
+        let report = fitted.approach(&mut mesh, &on, &solid, &options, &Silent).unwrap();
+        assert_eq!((report.worst, report.mean), quality(&mesh));
+        assert_eq!(report.off, []);
+        (farthest(&mesh, &on, &solid), report.worst.unwrap(), report.sweeps)
+    }
+
+    #[test]
+    fn cells_become_fair_for_the_sake_of_distance() {
         let near = 0.075;
-        let approached = |near: f64, fair: f64| {
-            let mut mesh = mesh.clone();
-            let far = vec![true; mesh.positions.len()];
-            let fitted = Fitted { report: FitReport::default(), holds: held(&on), far };
-            let options = FitOptions { near, fair, ..FitOptions::default() };
-            let report = fitted.approach(&mut mesh, &on, &solid, &options, &Silent).unwrap();
-            assert_eq!((report.worst, report.mean), quality(&mesh));
-            assert_eq!(report.off, []);
-            (farthest(&mesh, &on, &solid), report.worst.unwrap(), report.sweeps)
-        };
-        let [(good, best, most), (fair, worst, sweeps)] = [GOOD, 0.36].map(|least| approached(near, least));
+        let [(good, best, most), (fair, worst, sweeps)] =
+            [GOOD, 0.36].map(|least| approached(0.5, near, least));
         assert!(good <= near && best >= GOOD, "{good} {best}");
         assert!(fair <= near && (0.36..GOOD).contains(&worst), "{fair} {worst}");
         assert!(sweeps < most, "it is near sooner: {sweeps} {most}");
-        // Where that does not suffice room is made.
-        let (alone, _, few) = approached(1.5 * near, GOOD);
-        let (with_room, best, many) = approached(near / 1.5, GOOD);
-        assert!(with_room < 0.8 * alone && best >= GOOD && many > few, "{with_room} {alone} {best}");
         // Good is all that is ever asked for, and what is near enough stays so.
-        assert_eq!(approached(near, 0.6), approached(near, GOOD));
-        assert!(approached(1.0, 0.36).2 < sweeps);
+        assert_eq!(approached(0.5, near, 0.6), approached(0.5, near, GOOD));
+        assert!(approached(0.5, 1.0, 0.36).2 < sweeps);
+    }
+
+    #[test]
+    fn room_is_made_where_they_stay_apart() {
+        let (alone, _, few) = approached(0.7, 0.12, GOOD);
+        let (with_room, best, many) = approached(0.7, 0.05, GOOD);
+        assert!(with_room < 0.95 * alone && best >= GOOD && many > few, "{with_room} {alone} {best}");
     }
 }
