@@ -14,10 +14,13 @@ use super::boxes::{Boxes, Cube};
 use super::closest::closest_on_four;
 use super::lanes::{LANES, Row, Rows, SINGLES, Vectors, level};
 use super::{Aabb, Point};
-use crate::{Cancelled, Monitor, Silent};
+use crate::{Cancelled, Monitor, Silent, parallel};
 
-/// The monitor is asked before more facets than this are split.
+/// The monitor is asked before the boxes of more facets than this are made.
 const MANY: usize = 1 << 14;
+
+/// How often facets are halved before threads sort the pieces.
+const HALVED: usize = 6;
 
 /// More boxes than ever wait: seven a level, of which 2^31 facets have no more than 11.
 const WAITING: usize = 96;
@@ -193,6 +196,8 @@ impl<F: Facet> NearestFacet<F> {
         let mut tree = Self { root: Below::branch(0), branches, leaves, facets, cube, extent };
         (tree.root, _) = tree.add(0..tree.facets.len(), monitor)?;
         tree.leaves.push(tree.facets.len() as u32);
+        tree.branches.shrink_to_fit();
+        tree.leaves.shrink_to_fit();
         Ok(tree)
     }
 
@@ -208,8 +213,9 @@ impl<F: Facet> NearestFacet<F> {
         let place = self.branches.len();
         self.branches.push(Branch { boxes: Boxes::NONE, below: [Below::branch(place); SINGLES] });
         let mut all = Aabb::EMPTY;
-        for (lane, part) in parts(places, F::TOGETHER).into_iter().enumerate() {
-            let (below, bounds) = self.add(part, monitor)?;
+        let full = full(places.len(), F::TOGETHER);
+        for (lane, start) in places.clone().step_by(full).enumerate() {
+            let (below, bounds) = self.add(start..places.end.min(start + full), monitor)?;
             let branch = &mut self.branches[place];
             branch.below[lane] = below;
             branch.boxes.set(lane, &self.cube, &bounds);
@@ -337,21 +343,37 @@ struct Middle {
 }
 
 /// Puts facets in the order of the tree, where some of them are looked at together.
-fn sort(facets: &mut [Middle], together: usize, monitor: &dyn Monitor) -> Result<(), Cancelled> {
-    if facets.len() > MANY {
-        monitor.proceed()?;
+fn sort<'a>(facets: &'a mut [Middle], together: usize, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+    let mut pieces = vec![facets];
+    for _ in 0..HALVED {
+        parallel::try_for_each_mut(&mut pieces, monitor, |_, piece| halve(piece, together))?;
+        let halves = |piece: &'a mut [Middle]| {
+            let left = left(piece.len(), together);
+            <[_; 2]>::from(piece.split_at_mut(left))
+        };
+        pieces = pieces.into_iter().flat_map(halves).collect();
     }
+    parallel::try_for_each_mut(&mut pieces, monitor, |_, piece| sort_piece(piece, together))
+}
+
+fn sort_piece(facets: &mut [Middle], together: usize) {
     if facets.len() > together {
+        halve(facets, together);
+        let (left, right) = facets.split_at_mut(left(facets.len(), together));
+        sort_piece(left, together);
+        sort_piece(right, together);
+    }
+}
+
+/// Puts the facets of the left before those of the right.
+fn halve(facets: &mut [Middle], together: usize) {
+    let left = left(facets.len(), together);
+    if left < facets.len() {
         let size = Aabb::around(facets.iter().map(|f| &f.at)).size();
         let axis = (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest });
         let along = |a: &Middle, b: &Middle| a.at[axis].total_cmp(&b.at[axis]).then(a.index.cmp(&b.index));
-        let [left, _] = halves(0..facets.len());
-        facets.select_nth_unstable_by(left.end, along);
-        let (left, right) = facets.split_at_mut(left.end);
-        sort(left, together, monitor)?;
-        sort(right, together, monitor)?;
+        facets.select_nth_unstable_by(left, along);
     }
-    Ok(())
 }
 
 /// Puts at each place the facet whose place is told, without a second array of them: around one circle of places after the
@@ -370,25 +392,19 @@ fn rearrange<F>(facets: &mut [F], mut from: Vec<Middle>) {
     }
 }
 
-/// Places in two halves, as facets are sorted.
-fn halves(places: Range<usize>) -> [Range<usize>; 2] {
-    let middle = places.start + places.len() / 2;
-    [places.start..middle, middle..places.end]
+/// How many of so many facets are in each part of a branch, but for the last: what is below it is full.
+fn full(count: usize, together: usize) -> usize {
+    let mut full = together;
+    while SINGLES * full < count {
+        full *= SINGLES;
+    }
+    full
 }
 
-/// Places in eight parts, or fewer where some are looked at together.
-fn parts(places: Range<usize>, together: usize) -> Vec<Range<usize>> {
-    let mut parts = vec![places];
-    for _ in 0..SINGLES.ilog2() {
-        for part in std::mem::take(&mut parts) {
-            if part.len() > together {
-                parts.extend(halves(part));
-            } else {
-                parts.push(part);
-            }
-        }
-    }
-    parts
+/// How many of so many facets are on the left when they are sorted: those of half of the parts.
+fn left(count: usize, together: usize) -> usize {
+    let full = full(count, together);
+    count.min(count.div_ceil(full).div_ceil(2) * full)
 }
 
 /// The box around some facets.
@@ -446,6 +462,21 @@ mod tests {
             let found = index.nearest((t[0] + t[1] + t[2]) / 3.0).unwrap();
             assert_eq!(twice[found.facet], *t);
             assert!(found.facet < 50);
+        }
+    }
+
+    #[test]
+    fn all_is_full_in_a_tree_but_for_what_is_last() {
+        for n in [1, 2, 4, 5, 11, 16, 17, 40] {
+            let tree = NearestTriangle::new(sheet(n));
+            let (mut left, mut branches) = ((2 * n * n).div_ceil(LANES), 0);
+            assert_eq!(tree.leaves.len(), left + 1);
+            while left > 1 {
+                // What would be alone in a branch is in the one above.
+                branches += left / SINGLES + usize::from(left % SINGLES > 1);
+                left = left.div_ceil(SINGLES);
+            }
+            assert_eq!(tree.branches.len(), branches);
         }
     }
 

@@ -15,5 +15,5 @@ const _: () = assert!(_mi_option_last == 47);
 /// What is freed goes back nearly at once from now on.
 pub(super) fn give_back_soon() {
     // SAFETY: options are atomic numbers, and may be set at any time.
-    unsafe { mi_option_set(PURGE_DELAY, 10) }
+    unsafe { mi_option_set(PURGE_DELAY, 1) }
 }
