@@ -4,6 +4,7 @@ use super::super::correspondence::Correspondence;
 use crate::mesh::numbering::hex::FACES;
 use crate::mesh::topology::{Side, hex_boundary, hex_of, side_nodes};
 use crate::mesh::{HexId, HexMesh, NodeId};
+use crate::parallel;
 use crate::solid::SurfaceId;
 
 /// No quad.
@@ -57,28 +58,25 @@ impl Boundary {
     }
 
     /// The edges of the quads of which some end is `wanted`.
-    pub(super) fn edges(&self, wanted: impl Fn(NodeId) -> bool) -> BoundaryEdges {
-        let mut uses: Vec<([NodeId; 2], u32)> = Vec::new();
-        for (q, quad) in (0u32..).zip(&self.quads) {
-            if quad.iter().any(|&n| wanted(n)) {
-                let edges = (0..4).map(|k| [quad[k], quad[(k + 1) % 4]]);
-                uses.extend(
-                    edges.filter(|edge| edge.iter().any(|&n| wanted(n))).map(|edge| (ascending(edge), q)),
-                );
-            }
-        }
-        uses.sort_unstable();
+    pub(super) fn edges(&self, wanted: impl Fn(NodeId) -> bool + Sync) -> BoundaryEdges {
+        let mut uses = parallel::gather(self.quads.len(), |q, uses: &mut Vec<(u64, u32)>| {
+            let quad = &self.quads[q];
+            let edges = (0..4).map(|k| [quad[k], quad[(k + 1) % 4]]);
+            let wanted = edges.filter(|edge| edge.iter().any(|&n| wanted(n)));
+            uses.extend(wanted.map(|edge| (key(edge), q as u32)));
+        });
+        parallel::sort(&mut uses);
         BoundaryEdges(uses)
     }
 }
 
-/// Edges with the quads at them.
-pub(super) struct BoundaryEdges(Vec<([NodeId; 2], u32)>);
+/// Edges, as numbers, with the quads at them.
+pub(super) struct BoundaryEdges(Vec<(u64, u32)>);
 
 impl BoundaryEdges {
     /// The two quads at an edge; `None` if it has not two.
     pub(super) fn quads(&self, edge: [NodeId; 2]) -> Option<[u32; 2]> {
-        let edge = ascending(edge);
+        let edge = key(edge);
         let first = self.0.partition_point(|&(other, _)| other < edge);
         match self.0[first..] {
             [(a, p), (b, q), ref rest @ ..]
@@ -89,6 +87,12 @@ impl BoundaryEdges {
             _ => None,
         }
     }
+}
+
+/// An edge as a number, the same either way round.
+fn key(edge: [NodeId; 2]) -> u64 {
+    let [a, b] = ascending(edge).map(|n| u64::from(n.0));
+    a << 32 | b
 }
 
 /// The ends of an edge, the lesser first.

@@ -115,8 +115,8 @@ impl<'a> Look<'a> {
 
     /// Corners of quads that would be flat on the solid, since both edges lie on curves and no corner is between them.
     pub(super) fn flat_corners(&self) -> Vec<FlatCorner> {
-        let mut found = Vec::new();
-        for (q, quad) in (0u32..).zip(&self.boundary.quads) {
+        parallel::gather(self.boundary.quads.len(), |quad, found: &mut Vec<FlatCorner>| {
+            let (q, quad) = (quad as u32, &self.boundary.quads[quad]);
             for k in 0..4 {
                 let [before, node, after] = [k + 3, k, k + 1].map(|k| quad[k % 4]);
                 let anchor = self.on.anchors[node.index()];
@@ -132,8 +132,7 @@ impl<'a> Look<'a> {
                     found.push(FlatCorner { quad: q, node, across });
                 }
             }
-        }
-        found
+        })
     }
 }
 
