@@ -9,11 +9,10 @@ use super::problem::Problem;
 use super::star::{Reading, Star};
 use super::symmetric::Symmetric;
 use crate::geometry::Point;
-use crate::parallel;
+use crate::parallel::{self, Flags};
 use crate::{Cancelled, Monitor};
 
-/// Nodes that are moved before those around them are woken, while their cells are still in the cache, and it is asked whether
-/// to stop.
+/// Nodes that are moved before it is asked whether to stop.
 const BATCH: usize = 512;
 
 /// Nodes that are awake and swept before the next, all of their colours: what they and the cells around them take stays in a
@@ -58,7 +57,6 @@ pub(crate) fn sweep(
     monitor: &dyn Monitor,
 ) -> Result<Moved, Cancelled> {
     let mut moved = Moved::default();
-    let mut far = Vec::new();
     for (colour, places) in parts(problem, awake) {
         let part = problem.colours[colour][places].iter().copied();
         let nodes: Vec<u32> = part.filter(|&n| awake[n as usize]).collect();
@@ -66,22 +64,22 @@ pub(crate) fn sweep(
             if monitor.cancelled() {
                 return Err(Cancelled);
             }
-            let found: Vec<Option<Step>> = parallel::collect_with(batch.len(), Star::default, |star, k| {
+            let step = |star: &mut Star, k: usize, awake: &Flags| {
                 read_ahead(problem, batch, k);
-                relaxed(problem, batch[k], rules, star)
-            });
-            far.clear();
+                let step = relaxed(problem, batch[k], rules, star);
+                if step.as_ref().is_some_and(|step| step.far) {
+                    wake_around(problem, batch[k], allowed, awake);
+                }
+                step
+            };
+            let found = parallel::collect_raising(awake, batch.len(), Star::default, step);
             for (&node, step) in batch.iter().zip(found) {
-                awake[node as usize] = false;
+                awake[node as usize] = step.as_ref().is_some_and(|step| step.far) && allowed[node as usize];
                 let Some(step) = step else { continue };
                 problem.points[node as usize] = step.to;
                 moved.nodes.push(node);
-                if step.far {
-                    far.push(node);
-                }
+                moved.far += usize::from(step.far);
             }
-            moved.far += far.len();
-            wake(problem, &far, allowed, awake);
         }
     }
     Ok(moved)
@@ -113,15 +111,17 @@ pub(crate) struct Moved {
 
 /// Wakes the nodes and those that share a cell with one of them.
 pub(crate) fn wake(problem: &Problem, nodes: &[u32], allowed: &[bool], awake: &mut [bool]) {
-    parallel::raise_some(awake, nodes.len(), |k, awake| {
-        for (cell, _) in problem.star(nodes[k]) {
-            for other in problem.cells[cell] {
-                if allowed.get(other as usize) == Some(&true) {
-                    awake.raise(other as usize);
-                }
+    parallel::raise_some(awake, nodes.len(), |k, awake| wake_around(problem, nodes[k], allowed, awake));
+}
+
+fn wake_around(problem: &Problem, node: u32, allowed: &[bool], awake: &Flags) {
+    for (cell, _) in problem.star(node) {
+        for other in problem.cells[cell] {
+            if allowed.get(other as usize) == Some(&true) {
+                awake.raise(other as usize);
             }
         }
-    });
+    }
 }
 
 /// Where a node goes, and whether that is far enough to matter to its neighbours.

@@ -51,6 +51,17 @@ pub fn collect_with<S, T: Send>(
     gather_with(count, init, |with, k, made| made.push(make(with, k)))
 }
 
+/// As [`collect_with`]; `make` may raise any of the flags as well.
+pub fn collect_raising<S, T: Send>(
+    flags: &mut [bool],
+    count: usize,
+    init: impl Fn() -> S + Sync,
+    make: impl Fn(&mut S, usize, &Flags) -> T + Sync,
+) -> Vec<T> {
+    let flags = Flags(slots::shared(flags));
+    collect_with(count, init, |with, k| make(with, k, &flags))
+}
+
 /// Appends what `make` gives for each number below `count`.
 pub fn extend<T: Send>(all: &mut Vec<T>, count: usize, make: impl Fn(usize) -> T + Sync) {
     unstopped(try_extend(all, count, &Silent, make));
@@ -332,7 +343,7 @@ pub fn gather_with<S, T: Send>(
 }
 
 /// So many numbers at least share what is made once a block.
-const LANE: usize = 32;
+const LANE: usize = 8;
 
 /// All items of the parts, in order.
 pub fn concat<T: Send>(mut parts: Vec<Vec<T>>) -> Vec<T> {

@@ -125,6 +125,31 @@ fn each_block_gets_something_of_its_own_to_work_with() {
 }
 
 #[test]
+fn flags_are_raised_while_results_are_collected() {
+    on_pools(|| {
+        for count in COUNTS {
+            let mut flags = vec![false; 2 * count + 1];
+            flags[0] = true;
+            let doubled = collect_raising(
+                &mut flags,
+                count,
+                || (),
+                |(), k, flags| {
+                    if !k.is_multiple_of(3) {
+                        flags.raise(2 * k);
+                    }
+                    2 * k
+                },
+            );
+            assert!(doubled.into_iter().eq((0..count).map(|k| 2 * k)));
+            let wanted =
+                |n: usize| n == 0 || n < 2 * count && n.is_multiple_of(2) && !(n / 2).is_multiple_of(3);
+            assert!(flags.into_iter().eq((0..=2 * count).map(wanted)));
+        }
+    });
+}
+
+#[test]
 fn both_sides_of_a_join_give_their_results() {
     on_pools(|| {
         let (a, (b, c)) = join(|| vec![1], || join(|| "two", || 3));
