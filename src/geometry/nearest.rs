@@ -14,13 +14,10 @@ use super::boxes::{Boxes, Cube};
 use super::closest::closest_on_four;
 use super::lanes::{LANES, Row, Rows, SINGLES, Vectors, level};
 use super::{Aabb, Point};
-use crate::{Cancelled, Monitor, Silent, parallel};
+use crate::{Cancelled, Monitor, Silent};
 
-/// The monitor is asked before the boxes of more facets than this are made.
+/// The monitor is asked before more facets than this are split.
 const MANY: usize = 1 << 14;
-
-/// How often facets are halved before threads sort the pieces.
-const HALVED: usize = 6;
 
 /// More boxes than ever wait: seven a level, of which 2^31 facets have no more than 11.
 const WAITING: usize = 96;
@@ -343,37 +340,23 @@ struct Middle {
 }
 
 /// Puts facets in the order of the tree, where some of them are looked at together.
-fn sort<'a>(facets: &'a mut [Middle], together: usize, monitor: &dyn Monitor) -> Result<(), Cancelled> {
-    let mut pieces = vec![facets];
-    for _ in 0..HALVED {
-        parallel::try_for_each_mut(&mut pieces, monitor, |_, piece| halve(piece, together))?;
-        let halves = |piece: &'a mut [Middle]| {
-            let left = left(piece.len(), together);
-            <[_; 2]>::from(piece.split_at_mut(left))
-        };
-        pieces = pieces.into_iter().flat_map(halves).collect();
+fn sort(facets: &mut [Middle], together: usize, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+    if facets.len() > MANY {
+        monitor.proceed()?;
     }
-    parallel::try_for_each_mut(&mut pieces, monitor, |_, piece| sort_piece(piece, together))
-}
-
-fn sort_piece(facets: &mut [Middle], together: usize) {
     if facets.len() > together {
-        halve(facets, together);
-        let (left, right) = facets.split_at_mut(left(facets.len(), together));
-        sort_piece(left, together);
-        sort_piece(right, together);
-    }
-}
-
-/// Puts the facets of the left before those of the right.
-fn halve(facets: &mut [Middle], together: usize) {
-    let left = left(facets.len(), together);
-    if left < facets.len() {
         let size = Aabb::around(facets.iter().map(|f| &f.at)).size();
         let axis = (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest });
         let along = |a: &Middle, b: &Middle| a.at[axis].total_cmp(&b.at[axis]).then(a.index.cmp(&b.index));
+        let full = full(facets.len(), together);
+        // Half of the parts.
+        let left = facets.len().div_ceil(full).div_ceil(2) * full;
         facets.select_nth_unstable_by(left, along);
+        let (left, right) = facets.split_at_mut(left);
+        sort(left, together, monitor)?;
+        sort(right, together, monitor)?;
     }
+    Ok(())
 }
 
 /// Puts at each place the facet whose place is told, without a second array of them: around one circle of places after the
@@ -399,12 +382,6 @@ fn full(count: usize, together: usize) -> usize {
         full *= SINGLES;
     }
     full
-}
-
-/// How many of so many facets are on the left when they are sorted: those of half of the parts.
-fn left(count: usize, together: usize) -> usize {
-    let full = full(count, together);
-    count.min(count.div_ceil(full).div_ceil(2) * full)
 }
 
 /// The box around some facets.
