@@ -67,18 +67,19 @@ pub(crate) fn sweep(
             let step = |star: &mut Star, k: usize, awake: &Flags| {
                 read_ahead(problem, batch, k);
                 let step = relaxed(problem, batch[k], rules, star);
-                if step.as_ref().is_some_and(|step| step.far) {
+                if let Some(Step { far: true, .. }) = step {
                     wake_around(problem, batch[k], allowed, awake);
                 }
                 step
             };
             let found = parallel::collect_raising(awake, batch.len(), Star::default, step);
             for (&node, step) in batch.iter().zip(found) {
-                awake[node as usize] = step.as_ref().is_some_and(|step| step.far) && allowed[node as usize];
-                let Some(step) = step else { continue };
-                problem.points[node as usize] = step.to;
+                let is_far = matches!(step, Some(Step { far: true, .. }));
+                awake[node as usize] = is_far && allowed[node as usize];
+                let Some(Step { to, .. }) = step else { continue };
+                problem.points[node as usize] = to;
                 moved.nodes.push(node);
-                moved.far += usize::from(step.far);
+                moved.far += usize::from(is_far);
             }
         }
     }
