@@ -17,10 +17,8 @@ const THIN: f64 = 75.0;
 pub(super) struct Groups {
     /// The group of each surface, by the least surface in it.
     of_surface: Vec<u32>,
-    /// For each curve: do its sides meet so flatly that no hex may have it for an edge of two boundary quads?
-    is_flat: Vec<bool>,
-    /// And so sharply that there is room for one hex alone?
-    is_thin: Vec<bool>,
+    /// The angle inside the solid at which the sides of each curve meet, in degrees.
+    angles: Vec<f64>,
     /// The corners where a surface has a sector wider than [`FLAT`].
     wide: Vec<(CornerId, SurfaceId)>,
 }
@@ -37,17 +35,13 @@ impl Groups {
         surface: impl Fn(SurfaceId) -> SurfaceId,
         corner: impl Fn(CornerId) -> CornerId,
     ) -> Self {
-        let is_flat: Vec<bool> = solid.curves().iter().map(|curve| curve.interior_angle > FLAT).collect();
-        let is_thin = solid.curves().iter().map(|curve| curve.interior_angle < THIN).collect();
         let mut sets = Sets::new(solid.surfaces().len());
         let mut unite = |a: SurfaceId, b: SurfaceId| {
             sets.join(surface(a).0, surface(b).0, false);
         };
-        for (curve, &is_flat) in solid.curves().iter().zip(&is_flat) {
-            if is_flat {
-                let [a, b] = curve.sides;
-                unite(a, b);
-            }
+        for curve in solid.curves().iter().filter(|curve| curve.interior_angle > FLAT) {
+            let [a, b] = curve.sides;
+            unite(a, b);
         }
         let mut wide = Vec::new();
         for sector in sectors(solid) {
@@ -59,7 +53,15 @@ impl Groups {
         }
         wide.sort_unstable();
         let group = |s: usize| sets.root(surface(SurfaceId::new(s)).0).0;
-        Self { of_surface: (0..solid.surfaces().len()).map(group).collect(), is_flat, is_thin, wide }
+        let of_surface = (0..solid.surfaces().len()).map(group).collect();
+        let angles = solid.curves().iter().map(|curve| curve.interior_angle).collect();
+        Self { of_surface, angles, wide }
+    }
+
+    /// Makes one group of two.
+    pub(super) fn unite(&mut self, a: u32, b: u32) {
+        let (least, other) = (a.min(b), a.max(b));
+        self.of_surface.iter_mut().filter(|group| **group == other).for_each(|group| *group = least);
     }
 
     /// The group of a surface.
@@ -72,14 +74,19 @@ impl Groups {
         self.of_surface.len()
     }
 
-    /// Do the sides of the curve meet flatly?
-    pub(super) fn is_flat(&self, curve: CurveId) -> bool {
-        self.is_flat[curve.index()]
+    /// The angle inside the solid at which the sides of the curve meet, in degrees.
+    pub(super) fn angle(&self, curve: CurveId) -> f64 {
+        self.angles[curve.index()]
     }
 
-    /// Do the sides of the curve leave room for one hex alone?
+    /// Do the sides of the curve meet so flatly that no hex may have it for an edge of two boundary quads?
+    pub(super) fn is_flat(&self, curve: CurveId) -> bool {
+        self.angle(curve) > FLAT
+    }
+
+    /// Do the sides of the curve meet so sharply that there is room for one hex alone?
     pub(super) fn is_thin(&self, curve: CurveId) -> bool {
-        self.is_thin[curve.index()]
+        self.angle(curve) < THIN
     }
 
     /// Is a quad of the surface flat at a node there, if both of its edges lie on curves?
@@ -120,13 +127,13 @@ fn sectors(solid: &SolidModel) -> impl Iterator<Item = Sector> {
 impl Groups {
     /// Groups as given, all curves between groups sharp and all sectors narrow.
     pub(super) fn given(of_surface: &[u32], is_flat: &[bool]) -> Self {
-        let is_thin = vec![false; is_flat.len()];
-        Self { of_surface: of_surface.to_vec(), is_flat: is_flat.to_vec(), is_thin, wide: Vec::new() }
+        let angles = is_flat.iter().map(|&is_flat| if is_flat { 180.0 } else { 90.0 }).collect();
+        Self { of_surface: of_surface.to_vec(), angles, wide: Vec::new() }
     }
 
     /// The same, where these curves leave room for one hex alone.
     pub(super) fn with_thin(mut self, curves: &[CurveId]) -> Self {
-        curves.iter().for_each(|curve| self.is_thin[curve.index()] = true);
+        curves.iter().for_each(|curve| self.angles[curve.index()] = 60.0);
         self
     }
 }

@@ -8,8 +8,10 @@
 //! 2. `need`: a group is covered only where a cell would be flat without.
 //! 3. The smallest group in need first; then all are looked at again, since a sheet can do its neighbours' work, or
 //!    make some.
-//! 4. `collars`: quads that stay flat at a smooth curve are pillowed one by one.
-//! 5. `wedges`: a sheet leaves two hexes at a curve between surfaces of its group. Where these meet so sharply that there
+//! 4. `unite`: at a corner of more than three surfaces a sheet over one of them would be pinched. Then it lies over a
+//!    neighbour as well, and all is done anew.
+//! 5. `collars`: quads that stay flat at a smooth curve are pillowed one by one.
+//! 6. `wedges`: a sheet leaves two hexes at a curve between surfaces of its group. Where these meet so sharply that there
 //!    is room for one alone, a pillow beside the curve makes it one.
 //!
 //! All of these are pillows of shrink sets (`shrink`), decided by topology alone. Old nodes stay on the boundary, so that
@@ -25,6 +27,7 @@ mod layers;
 mod need;
 mod shrink;
 mod sides;
+mod unite;
 mod wedges;
 
 use super::correspondence::Correspondence;
@@ -36,6 +39,7 @@ use groups::Groups;
 use layers::{Layers, Purpose};
 use need::Look;
 use shrink::{ShrinkSet, Torn, pillow};
+use unite::partner;
 
 const SHEETS: Stage = Stage("sheets");
 
@@ -144,12 +148,23 @@ impl SheetReport {
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
         let before = mesh.hexes.len();
-        let mut boundary = Boundary::of(mesh, on);
-        let pinched = self.insert_layers(mesh, on, &mut boundary, monitor);
-        self.hexes = mesh.hexes.len() - before;
-        self.count();
-        on.faces = boundary.in_order();
-        self.pinched = pinched?;
+        let boundary = loop {
+            let mut boundary = Boundary::of(mesh, on);
+            let inserted = self.insert_layers(mesh, on, &mut boundary, monitor);
+            self.hexes = mesh.hexes.len() - before;
+            self.count();
+            on.faces = boundary.in_order();
+            match inserted? {
+                Inserted::All { pinched } => {
+                    self.pinched = pinched;
+                    break boundary;
+                }
+                Inserted::Pinched { unite: [a, b] } => {
+                    self.groups.unite(a, b);
+                    self.layers.take_all_back(mesh, on);
+                }
+            }
+        };
         let flat = Look::new(mesh, on, &boundary, &self.groups).flat_corners();
         self.flat = flat.into_iter().map(|corner| corner.node).collect();
         self.flat.sort_unstable();
@@ -157,14 +172,14 @@ impl SheetReport {
         monitor.checkpoint(SHEETS, 1.0)
     }
 
-    /// Inserts sheets, collars and wedges. The nodes at which some would have been pinched.
+    /// Inserts sheets, collars and wedges, until a sheet has to lie over two groups.
     fn insert_layers(
         &mut self,
         mesh: &mut HexMesh,
         on: &mut Correspondence,
         boundary: &mut Boundary,
         monitor: &dyn Monitor,
-    ) -> Result<Vec<NodeId>, Cancelled> {
+    ) -> Result<Inserted, Cancelled> {
         let Self { groups, layers, .. } = self;
         let mut pinched = Vec::new();
         let mut waiting: Vec<bool> =
@@ -180,13 +195,28 @@ impl SheetReport {
             let quads = quads_of(boundary, groups, group);
             match pillow(mesh, on, boundary, &ShrinkSet::Sheet(&quads)) {
                 Ok(layer) => layers.push(layer, Purpose::Sheet(group)),
-                Err(Torn(nodes)) => pinched.extend(nodes),
+                Err(Torn(nodes)) => {
+                    let takes = |group: u32| layers.takes_sheet(group);
+                    let look = Look::new(mesh, on, boundary, groups);
+                    match partner(&look, group, &nodes, takes, |group| waiting[group as usize]) {
+                        Some(other) => return Ok(Inserted::Pinched { unite: [group, other] }),
+                        None => pinched.extend(nodes),
+                    }
+                }
             }
         }
         collars::insert(mesh, on, boundary, groups, layers, monitor)?;
         pinched.extend(wedges::insert(mesh, on, boundary, groups, layers, monitor)?);
-        Ok(pinched)
+        Ok(Inserted::All { pinched })
     }
+}
+
+/// What came of inserting sheets, collars and wedges.
+enum Inserted {
+    /// All are there; or none of those that would have been pinched, at these nodes.
+    All { pinched: Vec<NodeId> },
+    /// A sheet would have been pinched that is not if it lies over these two groups.
+    Pinched { unite: [u32; 2] },
 }
 
 /// The group with the fewest quads of those `wanted`, the least if several have as many.

@@ -58,7 +58,8 @@ impl<'a> Look<'a> {
         needs
     }
 
-    fn group(&self, quad: u32) -> u32 {
+    /// The group that a quad is of.
+    pub(super) fn group(&self, quad: u32) -> u32 {
         self.groups.group(self.boundary.surface[quad as usize])
     }
 

@@ -92,7 +92,7 @@ fn inserted(mesh: HexMesh, on: Correspondence, groups: &Groups) -> Case {
     assert_eq!((left.sheets, left.wedges, left.collars, left.hexes), (0, 0, 0, 0));
     // Nobody needs anything any more.
     let look = (Boundary::of(&mesh, &on), &on);
-    let look = Look::new(&mesh, look.1, &look.0, groups);
+    let look = Look::new(&mesh, look.1, &look.0, &report.groups);
     assert!(look.needs().iter().all(|&needs| !needs) || !report.pinched.is_empty());
     assert_eq!(look.flat_corners().is_empty(), report.flat.is_empty());
     Case { mesh, on, report }
@@ -198,6 +198,53 @@ fn a_crease_in_steps_gets_collars_on_both_sides() {
         let on_crease = (0..on.anchors.len()).filter(|&n| on.anchors[n] == Anchor::Curve(crease));
         assert!(on_crease.map(quads_at).all(|count| (4..=6).contains(&count)));
     }
+}
+
+/// A ball of eight surfaces: at each of its six corners four meet, and a sheet over one or three of them would be pinched.
+#[test]
+fn where_four_surfaces_meet_a_sheet_lies_over_two() {
+    let mesh = voxels(&cubes(6, |p| p.length() < 2.9));
+    let octant = |p: Point, _: Point| (0..3).map(|k| u32::from(p[k] > 3.0) << k).sum();
+    let on = told(&mesh, octant);
+    let corners = on.anchors.iter().filter(|anchor| matches!(anchor, Anchor::Corner(_))).count();
+    let groups = apart(8, 12);
+    let Case { report, .. } = inserted(mesh.clone(), on.clone(), &groups);
+    assert!(corners == 6 && report.sheets > 0 && report.pinched.is_empty(), "{report:?}");
+    // Those that were left out find no partner.
+    let (mut left_mesh, mut left_on) = (mesh, on);
+    let mut left = insert(&mut left_mesh, &mut left_on, groups, &Silent).unwrap();
+    let sheets: Vec<usize> = (0..left.len()).filter(|&layer| left.is_sheet(layer)).collect();
+    left.leave_out(&mut left_mesh, &mut left_on, &sheets, &Silent).unwrap();
+    assert!(left.sheets < report.sheets, "{left:?}");
+}
+
+/// Of those beside it the one that has no sheet yet, then that which it meets most flatly.
+#[test]
+fn the_partner_is_the_flattest_without_a_sheet() {
+    let mesh = voxels(&cubes(4, |_| true));
+    let on = told(&mesh, side_of_box);
+    let boundary = Boundary::of(&mesh, &on);
+    let of_sides = |a: u32, b: u32| {
+        let is_between = |edge: &&CurveEdge| {
+            let [p, q] = edge.quads.map(|quad| boundary.surface[quad as usize].0);
+            [p, q] == [a, b] || [q, p] == [a, b]
+        };
+        Look::new(&mesh, &on, &boundary, &apart(6, 12)).curve_edges().iter().find(is_between).unwrap().curve
+    };
+    // From the side 0 the sides 2 and 5 are across a flat curve.
+    let mut is_flat = vec![false; 12];
+    [2, 5].into_iter().for_each(|side| is_flat[of_sides(0, side).index()] = true);
+    let groups = Groups::given(&[0, 1, 2, 3, 4, 5], &is_flat);
+    let look = Look::new(&mesh, &on, &boundary, &groups);
+    let node = |p: Point| NodeId::new(mesh.positions.iter().position(|&q| q == p).unwrap());
+    let corners = [Point::ZERO, Point::new(0.0, 4.0, 4.0)].map(node);
+    let partner = |takes: &[u32], has_none: &[u32]| {
+        unite::partner(&look, 0, &corners, |g| takes.contains(&g), |g| has_none.contains(&g))
+    };
+    assert_eq!(partner(&[1, 2, 3, 4, 5], &[1, 2, 3, 4, 5]), Some(2));
+    assert_eq!(partner(&[1, 3, 4, 5], &[1, 3, 4, 5]), Some(5));
+    assert_eq!(partner(&[2, 3, 4, 5], &[3, 4]), Some(3));
+    assert_eq!((partner(&[1], &[1]), partner(&[], &[])), (None, None));
 }
 
 /// What is left out is not inserted again, all else is, and the mesh is as good as any.

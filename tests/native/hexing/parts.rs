@@ -55,6 +55,29 @@ fn a_part_whose_kind_no_grid_shows_is_cut_out_of_an_octree() {
     assert_sound(&hexed, "part 95");
 }
 
+/// Pyramids over a regular polygon: at the tip of one over so many sides as many surfaces meet.
+#[test]
+fn a_tip_of_more_than_three_surfaces_is_captured() {
+    for sides in [4, 5] {
+        let mut pyramid = PolygonMesh::default();
+        for k in 0..sides {
+            let angle = f64::from(k) / f64::from(sides) * std::f64::consts::TAU;
+            pyramid.positions.push(Point::new(angle.cos(), angle.sin(), 0.0));
+            pyramid.push_face([k, (k + 1) % sides, sides].map(NodeId));
+        }
+        pyramid.positions.push(Point::Z);
+        pyramid.push_face((0..sides).rev().map(NodeId));
+        let hexed = hexed(&pyramid, 1.0 / 12.0);
+        let result = hexed.report.result();
+        let curves = result.features.curves;
+        assert_eq!((curves.captured, curves.found), (2 * sides as usize, 2 * sides as usize));
+        let sheets = hexed.report.bodies[0].attempts.iter().filter_map(|attempt| attempt.mesh.as_ref());
+        assert!(sheets.map(|mesh| mesh.sheets).all(|of| of.sheets > 0 && of.pinched == 0), "{sides}");
+        assert!(result.worst > 0.25 && (sides == 5 || result.distance.hausdorff() < 1e-9), "{result:?}");
+        assert_sound(&hexed, &format!("a pyramid of {sides} sides"));
+    }
+}
+
 /// A ridge of 40 degrees on a plate: its two slopes are covered together with the plate around, and two hexes side by side
 /// along the ridge could have no scaled Jacobian above the sine of 20 degrees.
 #[test]
