@@ -1,6 +1,6 @@
-//! One pass from a background to a mesh, and what came of it.
+//! One pass from a background to a draft, from there to a mesh, and what came of it.
 
-use super::background::{Failure, Missed, OctreeMesh};
+use super::background::{Background, Failure, Missed, OctreeMesh};
 use super::core::{Core, CoreOptions, CoreReport, core};
 use super::correspondence::{Correspondence, correspond};
 use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, Part, fit, quality};
@@ -20,13 +20,21 @@ use crate::{Cancelled, Monitor};
 /// Fair cells are better than good ones have to be by this: rounding, and smoothing once more, do not make them bad.
 const SPARE: f64 = 0.01;
 
+/// A core of a body and where it stands for what, not fitted yet.
+pub(super) struct Draft {
+    kind: Background,
+    core: Core,
+    on: Correspondence,
+    /// The cells of its background that are finer than others.
+    cells: FineCells,
+    pub(super) report: AttemptReport,
+}
+
 /// A mesh of a body and where it stands for what.
 #[derive(Clone, Debug)]
 pub(super) struct Meshed {
     pub(super) mesh: HexMesh,
     pub(super) on: Correspondence,
-    /// What it missed and smaller cells may show.
-    pub(super) failures: Vec<Failure>,
     fitted: Fitted,
 }
 
@@ -55,79 +63,96 @@ pub(super) fn off_euler(core: &CoreReport) -> u64 {
     core.euler.abs_diff(core.solid_euler)
 }
 
-/// Makes a mesh out of a background. It is given up as soon as it is known not to reach `bar`.
-pub(super) fn attempt(
+/// Cuts a core out of a background and finds the solid's features on it. It is given up, with nothing but a report, as soon
+/// as it is known not to reach `bar`.
+pub(super) fn draft(
     site: &Site<'_>,
     plan: &Plan,
     background: OctreeMesh,
     bar: Option<Bar>,
     monitor: &dyn Monitor,
-) -> Result<(AttemptReport, Option<Meshed>), HexingError> {
-    let (solid, options) = (site.solid, site.options);
+) -> Result<Result<Draft, AttemptReport>, HexingError> {
     let mut report = AttemptReport {
         background: plan.kind,
         shift: plan.shift,
         levels: levels_of(&background),
         ..AttemptReport::default()
     };
-    let mut cut;
-    (cut, report.keep_thin) = best_core(&background.mesh, solid, monitor)?;
-    report.core = cut.report;
+    let core;
+    (core, report.keep_thin) = best_core(&background.mesh, site.solid, monitor)?;
+    report.core = core.report;
     let cells = FineCells::of(&background);
     drop(background);
-    if cut.mesh.hexes.is_empty() {
-        return Err(HexingError::NothingLeft { edge_length: options.edge_length });
+    if core.mesh.hexes.is_empty() {
+        return Err(HexingError::NothingLeft { edge_length: site.options.edge_length });
     }
-    let off = off_euler(&cut.report);
+    let off = off_euler(&core.report);
     let is_behind = |features: Option<&FeatureReport>| bar.is_some_and(|bar| bar.is_above(off, features));
     if is_behind(None) {
-        return Ok((report, None));
+        return Ok(Err(report));
     }
-
-    let mut mesh = std::mem::take(&mut cut.mesh);
-    let mut on = correspond(&mesh, solid, monitor)?;
-    report.features = Some(FeatureReport::new(solid, &on.reduction));
+    let on = correspond(&core.mesh, site.solid, monitor)?;
+    report.features = Some(FeatureReport::new(site.solid, &on.reduction));
     if is_behind(report.features.as_ref()) {
-        return Ok((report, None));
+        return Ok(Err(report));
+    }
+    Ok(Ok(Draft { kind: plan.kind, core, on, cells, report }))
+}
+
+impl Draft {
+    /// What it misses before it is fitted, and smaller cells may show.
+    pub(super) fn failures(&self, site: &Site<'_>) -> Vec<Failure> {
+        misses(site, self.kind, &self.core, &self.on.reduction, Vec::new(), &self.cells)
     }
 
-    let mut sheets = insert_sheets(&mut mesh, &mut on, solid, monitor)?;
-    let max_distance = options.max_distance.unwrap_or(f64::INFINITY);
-    let near = tolerance(site, plan.kind);
-    let fair = site.taste.good + SPARE;
-    let fit_options = FitOptions { max_distance, near, fair, ..FitOptions::default() };
-    let mut fitted = fit(&mut mesh, &mut on, &mut sheets, solid, &fit_options, monitor)?;
-    report.features = Some(FeatureReport::new(solid, &on.reduction));
-    if !fitted.report.inverted.is_empty() {
-        return Err(HexingError::Tangled(fitted.report.inverted.len()));
-    }
-    let look = |mesh: &HexMesh| -> Result<(Distances, Vec<Failure>), Cancelled> {
-        let (distance, far) = distances(mesh, solid, near, monitor)?;
-        Ok((distance, misses(site, plan.kind, &cut, &on.reduction, far, &cells)))
-    };
-    let (mut distance, mut failures) = look(&mesh)?;
-    let is_far = |failure: &Failure| failure.missed == Missed::Far;
-    if off == 0 && fitted.report.mean >= FAIR && !failures.is_empty() && failures.iter().all(is_far) {
-        let before = mesh.positions.clone();
-        let report = fitted.approach(&mut mesh, &on, solid, &fit_options, monitor)?;
-        let now = look(&mesh)?;
-        if now.1.is_empty() {
-            (distance, failures) = now;
-            fitted.report = report;
-        } else {
-            mesh.positions = before;
+    /// Makes a mesh of it; what that missed and smaller cells may show.
+    pub(super) fn fit(
+        self,
+        site: &Site<'_>,
+        monitor: &dyn Monitor,
+    ) -> Result<(AttemptReport, Meshed, Vec<Failure>), HexingError> {
+        let Self { kind, mut core, mut on, cells, mut report } = self;
+        let (solid, options) = (site.solid, site.options);
+        let mut mesh = std::mem::take(&mut core.mesh);
+        let mut sheets = insert_sheets(&mut mesh, &mut on, solid, monitor)?;
+        let max_distance = options.max_distance.unwrap_or(f64::INFINITY);
+        let near = tolerance(site, kind);
+        let fair = site.taste.good + SPARE;
+        let fit_options = FitOptions { max_distance, near, fair, ..FitOptions::default() };
+        let mut fitted = fit(&mut mesh, &mut on, &mut sheets, solid, &fit_options, monitor)?;
+        report.features = Some(FeatureReport::new(solid, &on.reduction));
+        if !fitted.report.inverted.is_empty() {
+            return Err(HexingError::Tangled(fitted.report.inverted.len()));
         }
+        let look = |mesh: &HexMesh| -> Result<(Distances, Vec<Failure>), Cancelled> {
+            let (distance, far) = distances(mesh, solid, near, monitor)?;
+            Ok((distance, misses(site, kind, &core, &on.reduction, far, &cells)))
+        };
+        let (mut distance, mut failures) = look(&mesh)?;
+        let is_far = |failure: &Failure| failure.missed == Missed::Far;
+        let is_of_kind = off_euler(&core.report) == 0;
+        if is_of_kind && fitted.report.mean >= FAIR && !failures.is_empty() && failures.iter().all(is_far) {
+            let before = mesh.positions.clone();
+            let report = fitted.approach(&mut mesh, &on, solid, &fit_options, monitor)?;
+            let now = look(&mesh)?;
+            if now.1.is_empty() {
+                (distance, failures) = now;
+                fitted.report = report;
+            } else {
+                mesh.positions = before;
+            }
+        }
+        let came = &fitted.report;
+        report.mesh = Some(MeshedReport {
+            sheets: SheetCounts::new(&sheets, came),
+            fit: FitCounts::new(came, 0),
+            hexes: mesh.hexes.len(),
+            worst: came.worst.unwrap_or_default(),
+            mean: came.mean,
+            distance,
+        });
+        Ok((report, Meshed { mesh, on, fitted }, failures))
     }
-    let came = &fitted.report;
-    report.mesh = Some(MeshedReport {
-        sheets: SheetCounts::new(&sheets, came),
-        fit: FitCounts::new(came, 0),
-        hexes: mesh.hexes.len(),
-        worst: came.worst.unwrap_or_default(),
-        mean: came.mean,
-        distance,
-    });
-    Ok((report, Some(Meshed { mesh, on, failures, fitted })))
 }
 
 /// The core; where it is not of the solid's kind, that with what is thinner than cells, if it is nearer. Is it this one?

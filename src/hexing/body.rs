@@ -17,12 +17,12 @@
 //! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and
 //! how many times as large as the first another may be is bounded.
 
-use super::attempt::{Meshed, attempt, off_euler};
+use super::attempt::{Meshed, off_euler};
 use super::background::{Background, BackgroundError, Failure, Missed, retry};
 use super::ground::{Plan, Site};
-use super::merit::{Bar, captured, distance, is_better, is_far, worst};
 use super::options::{HexingError, HexingOptions};
-use super::report::{AttemptReport, BodyReport, RefusedAttempt};
+use super::report::BodyReport;
+use super::search::{Attempt, Search};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
@@ -52,12 +52,11 @@ pub(super) struct Body {
     pub(super) report: BodyReport,
 }
 
-/// An attempt and what came of it.
+/// The mesh that is kept.
 pub(super) struct Best {
     pub(super) meshed: Meshed,
-    /// Its place among the attempts.
+    /// The place of its attempt.
     pub(super) number: usize,
-    plan: Plan,
 }
 
 /// Meshes a body.
@@ -67,8 +66,7 @@ pub(super) fn mesh_body(
     monitor: &dyn Monitor,
 ) -> Result<Body, HexingError> {
     let site = Site::new(solid, options, monitor)?;
-    let mut search =
-        Search { site: &site, attempts: Vec::new(), refused: Vec::new(), best: None, tangled: None, monitor };
+    let mut search = Search::new(&site, monitor);
     let first = site.plan(site.choice.kind);
     match search.attempt(first, options.max_hexes) {
         Err(HexingError::NothingLeft { .. }) => return Ok(search.end()?),
@@ -96,62 +94,43 @@ pub(super) fn mesh_body(
     if site.may_be_octree() && search.is_other() {
         search.octree()?;
     }
+    search.settle()?;
     match (&search.best, search.tangled) {
         (None, Some(hexes)) => Err(HexingError::Tangled(hexes)),
         _ => Ok(search.end()?),
     }
 }
 
-struct Search<'a> {
-    site: &'a Site<'a>,
-    attempts: Vec<AttemptReport>,
-    refused: Vec<RefusedAttempt>,
-    best: Option<Best>,
-    /// Hexes that were inverted in an attempt that gave no mesh.
-    tangled: Option<usize>,
-    monitor: &'a dyn Monitor,
-}
-
 impl Search<'_> {
-    /// Makes an attempt; keeps it if it is better than the best so far.
-    fn attempt(&mut self, plan: Plan, max_hexes: u64) -> Result<(), HexingError> {
-        let background = self.site.background(&plan, max_hexes, self.monitor)?;
-        let bar = self.best_report().map(|best| Bar::of(best, self.site.taste));
-        let (report, meshed) = match attempt(self.site, &plan, background, bar, self.monitor) {
-            Err(HexingError::Tangled(hexes)) => {
-                self.tangled = Some(hexes);
-                return Ok(());
-            }
-            made => made?,
-        };
-        let number = self.attempts.len();
-        let is_better = self
-            .best_report()
-            .is_none_or(|best| is_better(&report, best, self.site.options, self.site.taste));
-        self.attempts.push(report);
-        if let Some(meshed) = meshed.filter(|_| is_better) {
-            self.best = Some(Best { meshed, number, plan });
-        }
-        Ok(())
-    }
-
     /// Refines where the best attempt missed something, and tries again, as often as that helps, with at most so many
-    /// hexes.
+    /// hexes. What is known of a draft may not be all: if smaller cells there are not better it is fitted, and refined by
+    /// what that missed.
     fn refine(&mut self, max_hexes: u64) -> Result<(), HexingError> {
         for round in 1..=self.site.options.max_levels {
-            let Some(plan) = self.finer(round, |_| true) else { break };
-            let before = self.number();
-            // Where too much is too far, what was lost alone.
-            if !self.another(plan, self.limit_of_far().min(max_hexes))?
-                && let Some(plan) = self.finer(round, |failure| failure.missed == Missed::Lost)
-            {
-                self.another(plan, self.limit().min(max_hexes))?;
-            }
-            if self.number() == before {
-                break;
+            if !self.is_refined(round, max_hexes)? {
+                if !self.waits() {
+                    return Ok(());
+                }
+                self.fit_best()?;
+                if !self.is_refined(round, max_hexes)? {
+                    break;
+                }
             }
         }
-        Ok(())
+        if self.waits() { self.fit_best() } else { Ok(()) }
+    }
+
+    /// Makes an attempt with smaller cells where the best missed something. False if it is no better.
+    fn is_refined(&mut self, round: u8, max_hexes: u64) -> Result<bool, HexingError> {
+        let Some(plan) = self.finer(round, |_| true) else { return Ok(false) };
+        let before = self.number();
+        // Where too much is too far, what was lost alone.
+        if !self.another(plan, self.limit_of_far().min(max_hexes))?
+            && let Some(plan) = self.finer(round, |failure| failure.missed == Missed::Lost)
+        {
+            self.another(plan, self.limit().min(max_hexes))?;
+        }
+        Ok(self.number() != before)
     }
 
     /// Tries an octree, with cells as small in details as there can be, and refines it if that is better.
@@ -196,27 +175,11 @@ impl Search<'_> {
         (growth * first.map_or(0, |first| first.core.background) as f64) as u64
     }
 
-    /// Makes an attempt more, if its background has no more than `limit` hexes. False if there is no such background, which
-    /// is noted.
-    fn another(&mut self, plan: Plan, limit: u64) -> Result<bool, HexingError> {
-        let Plan { kind: background, shift, .. } = plan;
-        match self.attempt(plan, limit) {
-            Err(HexingError::Background(error)) => {
-                let (code, reason) = (error.code(), error.to_string());
-                self.refused.push(RefusedAttempt { background, shift, limit, code, reason });
-                Ok(false)
-            }
-            // It was an attempt.
-            Err(HexingError::NothingLeft { .. }) => Ok(true),
-            made => made.map(|()| true),
-        }
-    }
-
     /// The best attempt, with smaller cells where it missed something of what is `looked_at`; none if it missed nothing of
     /// that which these may show.
     fn finer(&self, round: u8, looked_at: impl Fn(&Failure) -> bool) -> Option<Plan> {
-        let Best { meshed, plan, number } = self.best.as_ref()?;
-        let failures: Vec<Failure> = meshed.failures.iter().filter(|f| looked_at(f)).cloned().collect();
+        let Attempt { failures, plan, number, .. } = self.best.as_ref()?;
+        let failures: Vec<Failure> = failures.iter().filter(|f| looked_at(f)).cloned().collect();
         let more = retry(&failures, self.site.edge_length(plan.kind), self.site.finest(plan.kind));
         let has_place = !more.regions.is_empty();
         let is_wrong = off_euler(&self.attempts[*number].core) > 0;
@@ -229,68 +192,33 @@ impl Search<'_> {
         Some(Plan { regions, details, in_blocks, ..plan.clone() })
     }
 
-    fn best_report(&self) -> Option<&AttemptReport> {
-        self.best.as_ref().map(|best| &self.attempts[best.number])
-    }
-
-    /// The place of the best attempt.
-    fn number(&self) -> Option<usize> {
-        self.best.as_ref().map(|best| best.number)
-    }
-
-    /// Is the best attempt of this kind?
-    fn is_on(&self, kind: Background) -> bool {
-        self.best_report().is_some_and(|best| best.background == kind)
-    }
-
-    /// Is what came of it so far not what was asked for: of another kind, or far off, or without many of the features?
-    fn is_other(&self) -> bool {
-        self.best_report()
-            .is_none_or(|best| self.is_astray() || captured(best.features.as_ref()) < self.site.taste.shown)
-    }
-
-    /// Has something been made of a background of this kind?
-    fn has_tried(&self, kind: Background) -> bool {
-        self.attempts.iter().any(|attempt| attempt.background == kind)
-    }
-
-    /// Is the best attempt so far off that it does not show some part of the solid?
-    fn is_astray(&self) -> bool {
-        self.best_report().is_none_or(|best| {
-            let apart = distance(best) / self.site.options.edge_length;
-            off_euler(&best.core) > 0 || apart > self.site.taste.astray
-        })
-    }
-
-    /// Is there nothing that another try could mend?
-    fn is_good(&self) -> bool {
-        self.best_report().is_some_and(|best| {
-            let is_near = !is_far(best, self.site.options);
-            off_euler(&best.core) == 0 && is_near && worst(best) >= self.site.taste.good
-        })
-    }
-
     /// Finishes the best attempt.
     fn end(mut self) -> Result<Body, Cancelled> {
         let site = self.site;
-        if let Some(Best { meshed, number, .. }) = &mut self.best {
-            let report = self.attempts[*number].mesh.as_mut().expect("a mesh is kept");
+        let best = self.best.take().and_then(|best| Some(Best { meshed: best.meshed?, number: best.number }));
+        let mut body = Body {
+            report: BodyReport {
+                place: site.solid.bounds().center().to_array(),
+                choice: site.choice,
+                directions: site.directions.clone(),
+                kept: best.as_ref().map(|best| best.number),
+                attempts: self.attempts,
+                refused: self.refused,
+            },
+            best,
+        };
+        if let Some(Best { meshed, number }) = &mut body.best {
+            let report = body.report.attempts[*number].mesh.as_mut().expect("a mesh is kept");
             meshed.finish(site.solid, report, self.monitor)?;
         }
-        let report = BodyReport {
-            place: site.solid.bounds().center().to_array(),
-            choice: site.choice,
-            directions: site.directions.clone(),
-            kept: self.number(),
-            attempts: self.attempts,
-            refused: self.refused,
-        };
-        Ok(Body { best: self.best, report })
+        Ok(body)
     }
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
+    use super::super::attempt::draft;
+    use super::super::merit::distance;
     use super::*;
     use crate::Silent;
     use crate::geometry::Point;
@@ -309,7 +237,8 @@ mod tests {
                 HexingOptions { edge_length: 1.5, max_distance: Some(0.08), ..HexingOptions::default() };
             let solid = solid(&surface);
             let Body { report, .. } = mesh_body(&solid, &options, &Silent).unwrap();
-            let kinds: Vec<_> = report.attempts.iter().map(|a| (a.background, a.levels.len())).collect();
+            let fitted = report.attempts.iter().filter(|attempt| attempt.mesh.is_some());
+            let kinds: Vec<_> = fitted.map(|a| (a.background, a.levels.len())).collect();
             assert_eq!(kinds[..2], [(Background::Swept, 1), (Background::Swept, 2)], "{depth}");
             let site = Site::new(&solid, &options, &Silent).unwrap();
             let is_astray = distance(&report.attempts[0]) > site.taste.astray * options.edge_length;
@@ -323,14 +252,7 @@ mod tests {
         let solid = solid(&voxels([4, 4, 4], |_| true));
         let options = HexingOptions { edge_length: 1.0, max_hexes, ..HexingOptions::default() };
         let site = Site::new(&solid, &options, &Silent).unwrap();
-        let mut search = Search {
-            site: &site,
-            attempts: Vec::new(),
-            refused: Vec::new(),
-            best: None,
-            tangled: None,
-            monitor: &Silent,
-        };
+        let mut search = Search::new(&site, &Silent);
         search.attempt(site.plan(Background::Grid), max_hexes).unwrap();
         (search.attempts[0].core.euler, search.attempts[0].core.background) = (euler, background);
         search.limit_of_octree()
@@ -343,6 +265,50 @@ mod tests {
         assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 2446, many)), [20_000, 150_000]);
         assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 10_000, many)), [80_000, 240_000]);
         assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 10_000, 50_000)), [50_000, 50_000]);
+    }
+
+    /// A plate with nine pegs, of which large cells show none: drafts wait as long as there are smaller cells to try.
+    #[test]
+    fn a_draft_that_loses_much_waits_for_smaller_cells() {
+        let is_peg = |k: i32| k % 4 == 2;
+        let pegs = voxels([13, 13, 4], |[x, y, z]| z < 3 || is_peg(x) && is_peg(y));
+        let solid = solid(&pegs);
+        for max_levels in [0, 2] {
+            let options = HexingOptions { edge_length: 2.4, max_levels, ..HexingOptions::default() };
+            let Body { report, .. } = mesh_body(&solid, &options, &Silent).unwrap();
+            let fitted = report.attempts.iter().position(|attempt| attempt.mesh.is_some()).unwrap();
+            assert_eq!(fitted > 0, max_levels > 0);
+            let lost = report.attempts[..=fitted].iter().map(|a| a.features.as_ref().unwrap().lost());
+            assert!(lost.is_sorted_by(|a, b| a > b));
+        }
+    }
+
+    /// A search whose first attempt is a draft of a cube that has this Euler number, as far as it knows.
+    fn with_draft<'a>(site: &'a Site<'a>, euler: i64) -> Search<'a> {
+        let (mut search, plan) = (Search::new(site, &Silent), site.plan(Background::Grid));
+        let background = site.background(&plan, u64::MAX, &Silent).unwrap();
+        let mut report = draft(site, &plan, background, None, &Silent).unwrap().ok().unwrap().report;
+        report.core.euler = euler;
+        search.attempts.push(report);
+        search.waiting.push((0, plan.clone()));
+        search.best = Some(Attempt { meshed: None, failures: Vec::new(), number: 0, plan });
+        search
+    }
+
+    /// One of another kind not before all else was tried.
+    #[test]
+    fn a_draft_that_smaller_cells_do_not_better_is_fitted() {
+        let solid = solid(&voxels([4, 4, 4], |_| true));
+        let options = HexingOptions { edge_length: 1.0, ..HexingOptions::default() };
+        let site = Site::new(&solid, &options, &Silent).unwrap();
+        let mut of_kind = with_draft(&site, 2);
+        assert!(of_kind.waits() && !of_kind.is_good());
+        of_kind.refine(options.max_hexes).unwrap();
+        assert!(!of_kind.waits() && of_kind.is_good() && of_kind.attempts.len() == 1);
+        let mut other = with_draft(&site, 0);
+        assert!(!other.waits() && !other.is_good());
+        other.settle().unwrap();
+        assert!(other.waiting.is_empty() && other.is_good() && other.attempts.len() == 1);
     }
 
     #[test]

@@ -63,6 +63,10 @@ const MEAN: f64 = 4.0;
 pub(super) const FAIR: f64 = 0.85;
 const UNFAIR: f64 = 10.0;
 
+/// A draft whose losses weigh more than this waits for one with smaller cells, if that loses so much less.
+const MUCH: f64 = 0.1;
+const LESS: f64 = 0.1;
+
 /// What an attempt has to reach to be worth going on with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bar {
@@ -75,6 +79,11 @@ impl Bar {
     /// That of the best attempt so far.
     pub(super) fn of(best: &AttemptReport, taste: Taste) -> Self {
         Self { off_euler: off_euler(&best.core), lost: lost(best.features.as_ref()) + taste.loss }
+    }
+
+    /// That of a draft that [loses much](loses_much).
+    pub(super) fn of_draft(draft: &AttemptReport, taste: Taste) -> Self {
+        Self { off_euler: off_euler(&draft.core), lost: lost(draft.features.as_ref()) - LESS / taste.lost }
     }
 
     /// Is a core that is so far from the solid's Euler number, with these features if they are known, not worth it?
@@ -101,6 +110,18 @@ pub(super) fn captured(features: Option<&FeatureReport>) -> f64 {
         let found = curves.found + surfaces.found - features.low.curves - features.low.surfaces;
         (curves.captured + surfaces.captured) as f64 / found.max(1) as f64
     })
+}
+
+/// Does a draft lose so many features that it is worth looking first whether smaller cells lose less?
+pub(super) fn loses_much(draft: &AttemptReport, taste: Taste) -> bool {
+    taste.lost * lost(draft.features.as_ref()) > MUCH
+}
+
+/// Does the draft `a` show more of the solid than `b`, be that a mesh or not?
+pub(super) fn shows_more(a: &AttemptReport, b: &AttemptReport) -> bool {
+    let lacks = |report: &AttemptReport| (off_euler(&report.core), lost(report.features.as_ref()));
+    let ((off_a, lost_a), (off_b, lost_b)) = (lacks(a), lacks(b));
+    off_a < off_b || off_a == off_b && lost_a < lost_b
 }
 
 /// Are mesh and solid farther from each other than allowed?
@@ -263,5 +284,23 @@ mod tests {
         let losing = |lost| attempt(2, lost, 0.0, 0.0, 0.0).features;
         assert!(!bar.is_above(0, None) && bar.is_above(2, None));
         assert!(!bar.is_above(0, losing(4).as_ref()) && bar.is_above(0, losing(6).as_ref()));
+    }
+
+    #[test]
+    fn a_draft_that_loses_much_waits_for_one_that_loses_clearly_less() {
+        let draft = |lost| AttemptReport { mesh: None, ..attempt(2, lost, 0.0, 0.0, 0.0) };
+        assert_eq!([9, 11].map(|lost| loses_much(&draft(lost), Taste::DRAWN)), [false, true]);
+        assert_eq!([19, 21].map(|lost| loses_much(&draft(lost), Taste::FREE_FORM)), [false, true]);
+        let bar = Bar::of_draft(&draft(30), Taste::DRAWN);
+        assert_eq!([19, 21].map(|lost| bar.is_above(0, draft(lost).features.as_ref())), [false, true]);
+        assert!(bar.is_above(1, draft(0).features.as_ref()));
+    }
+
+    #[test]
+    fn of_drafts_the_kind_comes_first() {
+        let [right, wrong, fewer] =
+            [attempt(2, 9, 0.0, 0.0, 0.0), attempt(0, 0, 0.0, 0.0, 0.0), attempt(2, 8, 0.0, 0.0, 0.0)];
+        assert!(shows_more(&right, &wrong) && !shows_more(&wrong, &right));
+        assert!(shows_more(&fewer, &right) && !shows_more(&right, &right));
     }
 }

@@ -23,6 +23,7 @@ mod misses;
 mod options;
 mod pipeline;
 mod report;
+mod search;
 mod second_order;
 mod separate;
 mod steps;

@@ -1,0 +1,200 @@
+//! The attempts at a body: drafts and meshes, and which of them is the best.
+//!
+//! A draft, a core that is not fitted yet, tells already whether it is of the solid's kind and which features it loses. One of
+//! another kind is fitted only if none of the solid's kind is found; one that loses much, only if smaller cells lose hardly
+//! less, or have something to mend.
+
+use super::attempt::{Draft, Meshed, draft, off_euler};
+use super::background::{Background, Failure};
+use super::ground::{Plan, Site};
+use super::merit::{Bar, captured, distance, is_better, is_far, loses_much, shows_more, worst};
+use super::options::HexingError;
+use super::report::{AttemptReport, RefusedAttempt};
+use crate::Monitor;
+
+/// What was tried.
+pub(super) struct Search<'a> {
+    pub(super) site: &'a Site<'a>,
+    pub(super) attempts: Vec<AttemptReport>,
+    pub(super) refused: Vec<RefusedAttempt>,
+    pub(super) best: Option<Attempt>,
+    /// Drafts that wait, by their places among the attempts: each is at least about as good as those before.
+    pub(super) waiting: Vec<(usize, Plan)>,
+    /// Hexes that were inverted in an attempt that gave no mesh.
+    pub(super) tangled: Option<usize>,
+    pub(super) monitor: &'a dyn Monitor,
+}
+
+/// What came of an attempt.
+pub(super) struct Attempt {
+    /// None as long as it is a draft.
+    pub(super) meshed: Option<Meshed>,
+    /// What it missed and smaller cells may show.
+    pub(super) failures: Vec<Failure>,
+    /// Its place among the attempts.
+    pub(super) number: usize,
+    pub(super) plan: Plan,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(site: &'a Site<'a>, monitor: &'a dyn Monitor) -> Self {
+        Self {
+            site,
+            attempts: Vec::new(),
+            refused: Vec::new(),
+            best: None,
+            waiting: Vec::new(),
+            tangled: None,
+            monitor,
+        }
+    }
+
+    /// Makes an attempt; keeps it if it is better than the best so far. A draft of another kind than the solid waits, as does
+    /// one that loses so much that smaller cells are tried first.
+    pub(super) fn attempt(&mut self, plan: Plan, max_hexes: u64) -> Result<(), HexingError> {
+        let background = self.site.background(&plan, max_hexes, self.monitor)?;
+        let number = self.attempts.len();
+        let draft = match draft(self.site, &plan, background, self.bar(), self.monitor)? {
+            Ok(draft) => draft,
+            Err(report) => {
+                self.attempts.push(report);
+                return Ok(());
+            }
+        };
+        self.attempts.push(draft.report.clone());
+        let failures = draft.failures(self.site);
+        let is_of_kind = off_euler(&draft.report.core) == 0;
+        let has_rival = self.best.is_some() && !self.waits();
+        let loses_much = !has_rival && !failures.is_empty() && loses_much(&draft.report, self.site.taste);
+        if is_of_kind && !loses_much {
+            return self.fit(draft, plan, number);
+        }
+        self.waiting.push((number, plan.clone()));
+        if self.best_report().is_none_or(|best| shows_more(&draft.report, best)) {
+            self.best = Some(Attempt { meshed: None, failures, number, plan });
+        }
+        Ok(())
+    }
+
+    /// What another attempt has to reach to be gone on with.
+    fn bar(&self) -> Option<Bar> {
+        let of = if self.waits() { Bar::of_draft } else { Bar::of };
+        self.best_report().map(|best| of(best, self.site.taste))
+    }
+
+    /// Is the best attempt a draft of the solid's kind?
+    pub(super) fn waits(&self) -> bool {
+        self.best
+            .as_ref()
+            .is_some_and(|best| best.meshed.is_none() && off_euler(&self.attempts[best.number].core) == 0)
+    }
+
+    /// Fits a draft; keeps the mesh if it is better than the best so far.
+    fn fit(&mut self, draft: Draft, plan: Plan, number: usize) -> Result<(), HexingError> {
+        let (report, meshed, failures) = match draft.fit(self.site, self.monitor) {
+            Err(HexingError::Tangled(hexes)) => {
+                self.tangled = Some(hexes);
+                return Ok(());
+            }
+            made => made?,
+        };
+        let is_better = self
+            .best_report()
+            .is_none_or(|best| is_better(&report, best, self.site.options, self.site.taste));
+        self.attempts[number] = report;
+        if is_better {
+            self.best = Some(Attempt { meshed: Some(meshed), failures, number, plan });
+        }
+        Ok(())
+    }
+
+    /// Fits drafts that wait, the last and best first, until there is a mesh with nothing to mend; those that are farther from
+    /// the solid's kind than a mesh are passed over.
+    pub(super) fn settle(&mut self) -> Result<(), HexingError> {
+        self.best = self.best.take().filter(|best| best.meshed.is_some());
+        while !self.is_good()
+            && let Some((number, plan)) = self.waiting.pop()
+        {
+            let off = |report: &AttemptReport| off_euler(&report.core);
+            if self.best_report().is_none_or(|best| off(&self.attempts[number]) <= off(best)) {
+                self.fit_anew(plan, number)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Fits the best attempt, a draft that waits.
+    pub(super) fn fit_best(&mut self) -> Result<(), HexingError> {
+        self.best = None;
+        match self.waiting.pop() {
+            Some((number, plan)) => self.fit_anew(plan, number),
+            None => Ok(()),
+        }
+    }
+
+    /// Makes a draft again and fits it.
+    fn fit_anew(&mut self, plan: Plan, number: usize) -> Result<(), HexingError> {
+        let background = self.site.background(&plan, self.site.options.max_hexes, self.monitor)?;
+        match draft(self.site, &plan, background, None, self.monitor)? {
+            Ok(draft) => self.fit(draft, plan, number),
+            Err(_) => Ok(()),
+        }
+    }
+
+    /// Makes an attempt more, if its background has no more than `limit` hexes. False if there is no such background, which
+    /// is noted.
+    pub(super) fn another(&mut self, plan: Plan, limit: u64) -> Result<bool, HexingError> {
+        let Plan { kind: background, shift, .. } = plan;
+        match self.attempt(plan, limit) {
+            Err(HexingError::Background(error)) => {
+                let (code, reason) = (error.code(), error.to_string());
+                self.refused.push(RefusedAttempt { background, shift, limit, code, reason });
+                Ok(false)
+            }
+            // It was an attempt.
+            Err(HexingError::NothingLeft { .. }) => Ok(true),
+            made => made.map(|()| true),
+        }
+    }
+
+    pub(super) fn best_report(&self) -> Option<&AttemptReport> {
+        self.best.as_ref().map(|best| &self.attempts[best.number])
+    }
+
+    /// The place of the best attempt.
+    pub(super) fn number(&self) -> Option<usize> {
+        self.best.as_ref().map(|best| best.number)
+    }
+
+    /// Is the best attempt of this kind?
+    pub(super) fn is_on(&self, kind: Background) -> bool {
+        self.best_report().is_some_and(|best| best.background == kind)
+    }
+
+    /// Has something been made of a background of this kind?
+    pub(super) fn has_tried(&self, kind: Background) -> bool {
+        self.attempts.iter().any(|attempt| attempt.background == kind)
+    }
+
+    /// Is what came of it so far not what was asked for: of another kind, or far off, or without many of the features?
+    pub(super) fn is_other(&self) -> bool {
+        self.best_report()
+            .is_none_or(|best| self.is_astray() || captured(best.features.as_ref()) < self.site.taste.shown)
+    }
+
+    /// Is the best attempt so far off that it does not show some part of the solid?
+    pub(super) fn is_astray(&self) -> bool {
+        self.best_report().is_none_or(|best| {
+            let apart = distance(best) / self.site.options.edge_length;
+            off_euler(&best.core) > 0 || apart > self.site.taste.astray
+        })
+    }
+
+    /// Is there nothing that another try could mend?
+    pub(super) fn is_good(&self) -> bool {
+        self.best_report().is_some_and(|best| {
+            let is_near = !is_far(best, self.site.options);
+            off_euler(&best.core) == 0 && is_near && worst(best) >= self.site.taste.good
+        })
+    }
+}
