@@ -77,7 +77,7 @@ pub struct AttemptReport {
     pub core: CoreReport,
     /// What became of the solid's features; not looked for where the core was worse than one before.
     pub features: Option<FeatureReport>,
-    /// The mesh; not made where core or features were worse than those of an attempt before.
+    /// The mesh; not made where core or features were worse than those of an attempt before, or were left for a better one.
     #[serde(flatten)]
     pub mesh: Option<MeshedReport>,
 }
