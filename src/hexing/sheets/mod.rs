@@ -8,8 +8,8 @@
 //! 2. `need`: a group is covered only where a cell would be flat without.
 //! 3. The smallest group in need first; then all are looked at again, since a sheet can do its neighbours' work, or
 //!    make some.
-//! 4. `unite`: at a corner of more than three surfaces a sheet over one of them would be pinched. Then it lies over a
-//!    neighbour as well, and all is done anew.
+//! 4. `unite`: at a corner of more than three surfaces a sheet over one of them would be pinched. If hexes have two faces in
+//!    it still when all other sheets are there, it lies over a neighbour as well, and all is done anew.
 //! 5. `collars`: quads that stay flat at a smooth curve are pillowed one by one.
 //! 6. `wedges`: a sheet leaves two hexes at a curve between surfaces of its group. Where these meet so sharply that there
 //!    is room for one alone, a pillow beside the curve makes it one.
@@ -181,7 +181,7 @@ impl SheetReport {
         monitor: &dyn Monitor,
     ) -> Result<Inserted, Cancelled> {
         let Self { groups, layers, .. } = self;
-        let mut pinched = Vec::new();
+        let mut torn: Vec<(u32, Vec<NodeId>)> = Vec::new();
         let mut waiting: Vec<bool> =
             (0..groups.bound() as u32).map(|group| layers.takes_sheet(group)).collect();
         loop {
@@ -195,15 +195,21 @@ impl SheetReport {
             let quads = quads_of(boundary, groups, group);
             match pillow(mesh, on, boundary, &ShrinkSet::Sheet(&quads)) {
                 Ok(layer) => layers.push(layer, Purpose::Sheet(group)),
-                Err(Torn(nodes)) => {
-                    let takes = |group: u32| layers.takes_sheet(group);
-                    let look = Look::new(mesh, on, boundary, groups);
-                    match partner(&look, group, &nodes, takes, |group| waiting[group as usize]) {
-                        Some(other) => return Ok(Inserted::Pinched { unite: [group, other] }),
-                        None => pinched.extend(nodes),
-                    }
-                }
+                Err(Torn(nodes)) => torn.push((group, nodes)),
             }
+        }
+        // Others may have done the work of a sheet that would have been pinched.
+        let is_torn = |group: u32| torn.iter().any(|(other, _)| *other == group);
+        let look = Look::new(mesh, on, boundary, groups);
+        let (needs, bent) = (look.needs(), look.bent_hexes());
+        let mut pinched = Vec::new();
+        for (group, nodes) in torn.iter().filter(|(group, _)| needs[*group as usize]) {
+            let takes = |other: u32| bent.contains(group) && layers.takes_sheet(other);
+            let has_none = |other: u32| waiting[other as usize] || is_torn(other);
+            if let Some(other) = partner(&look, *group, nodes, takes, has_none) {
+                return Ok(Inserted::Pinched { unite: [*group, other] });
+            }
+            pinched.extend(nodes);
         }
         collars::insert(mesh, on, boundary, groups, layers, monitor)?;
         pinched.extend(wedges::insert(mesh, on, boundary, groups, layers, monitor)?);

@@ -68,7 +68,7 @@ impl<'a> Look<'a> {
     }
 
     /// The groups in which hexes have two faces that share an edge without a sharp curve.
-    fn bent_hexes(&self) -> Vec<u32> {
+    pub(super) fn bent_hexes(&self) -> Vec<u32> {
         let boundary = self.boundary;
         let mut by_side: Vec<u32> = (0..boundary.quads.len() as u32).collect();
         by_side.sort_unstable_by_key(|&q| boundary.sides[q as usize]);
