@@ -100,11 +100,13 @@ impl Problem {
     }
 
     /// The cells around a movable node, each with the node's corner.
+    #[inline]
     pub(crate) fn star(&self, node: u32) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.uses(node).iter().map(|&place| (place as usize / 8, place as usize % 8))
     }
 
     /// The same, each as eight times the cell, and which of its corners the node is.
+    #[inline]
     pub(crate) fn uses(&self, node: u32) -> &[u32] {
         &self.around[self.starts[node as usize] as usize..self.starts[node as usize + 1] as usize]
     }

@@ -78,9 +78,16 @@ impl Corridor {
     /// The cost of a spoke; `None` if it is not within reach.
     pub fn cost(&self, boundary: &Boundary, spoke: u32) -> Option<u64> {
         let node = boundary.spokes[spoke as usize].from;
-        let at = self.nodes.binary_search(&node).ok()?;
-        let cost = self.costs[(self.first[at] + spoke - boundary.first_spoke(node)) as usize];
-        (cost != FORBIDDEN).then_some(u64::from(cost))
+        self.costs_at(node).nth((spoke - boundary.first_spoke(node)) as usize)?
+    }
+
+    /// The costs of a node's spokes, as [`cost`](Self::cost) tells them; none if the node is not within reach.
+    pub fn costs_at(&self, node: u32) -> impl Iterator<Item = Option<u64>> + '_ {
+        let costs = self.nodes.binary_search(&node).map_or(&[][..], |at| {
+            let end = self.first.get(at + 1).map_or(self.costs.len(), |&next| next as usize);
+            &self.costs[self.first[at] as usize..end]
+        });
+        costs.iter().map(|&cost| (cost != FORBIDDEN).then_some(u64::from(cost)))
     }
 }
 

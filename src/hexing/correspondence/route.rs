@@ -182,25 +182,21 @@ impl<'a> Router<'a> {
         let goal = self.placement.nodes[self.legs[leg].stops[1] as usize];
         let spokes = &self.boundary.spokes;
         let last: Vec<u32> = self.ends(leg, 1).into_iter().map(|s| spokes[s as usize].twin).collect();
-        // What it costs to walk a spoke and come to its node; nothing leads through a stop.
-        let step = |s: u32| {
+        // What it costs to walk a spoke, of which the cost is told, and come to its node; nothing leads through a stop.
+        let step = |s: u32, cost: u64| {
             let to = spokes[s as usize].to;
             if self.stop_at[to as usize] != NONE {
-                return (to == goal && last.contains(&s)).then(|| corridor.cost(self.boundary, s))?;
+                return (to == goal && last.contains(&s)).then_some(cost);
             }
             let crowd = u64::from(self.users[to as usize]) * price + self.history[to as usize];
-            Some(corridor.cost(self.boundary, s)? + crowd)
+            Some(cost + crowd)
         };
-        let starts: Vec<(u32, u64)> =
-            self.ends(leg, 0).into_iter().filter_map(|s| Some((s, step(s)?))).collect();
+        let first_step = |s: u32| Some((s, step(s, corridor.cost(self.boundary, s)?)?));
+        let starts: Vec<(u32, u64)> = self.ends(leg, 0).into_iter().filter_map(first_step).collect();
         let leave = |into: u32, out: &mut Vec<(u32, u64)>| {
             let Spoke { to, twin, .. } = spokes[into as usize];
-            let first = self.boundary.first_spoke(to);
-            for s in first..first + self.boundary.valence(to) as u32 {
-                if s == twin {
-                    continue;
-                }
-                if let Some(cost) = step(s) {
+            for (s, cost) in (self.boundary.first_spoke(to)..).zip(corridor.costs_at(to)) {
+                if let Some(cost) = cost.filter(|_| s != twin).and_then(|cost| step(s, cost)) {
                     out.push((s, cost + self.turn(into, s)));
                 }
             }

@@ -1,7 +1,9 @@
 //! What holds each node while the mesh is fitted: nothing, a pull to its foot on the solid, or the solid itself.
 
+use std::sync::atomic::AtomicU32;
+
 use super::super::correspondence::Anchor;
-use super::target::Target;
+use super::target::{Foot, Target};
 use crate::geometry::Point;
 use crate::mesh::NodeId;
 use crate::optimize::{Guide, Pull, Symmetric};
@@ -39,6 +41,8 @@ pub(super) struct Holds<'a> {
     pub(super) target: &'a dyn Target,
     pub(super) anchors: &'a [Anchor],
     pub(super) holds: Vec<Hold>,
+    /// The facet of the solid that each node stood on last.
+    facets: Vec<AtomicU32>,
     /// Where on its curve a node is drawn, if that is not its foot; empty where that is so of all.
     places: Vec<Option<Point>>,
     /// How long the leashes are, in model units, by node, ascending.
@@ -64,7 +68,8 @@ impl<'a> Holds<'a> {
     /// With the holds given.
     pub(super) fn of(target: &'a dyn Target, anchors: &'a [Anchor], holds: Vec<Hold>) -> Self {
         let (places, leashes) = (Vec::new(), Vec::new());
-        Self { target, anchors, places, leashes, holds, weight: 0.0, surfaces: 1.0 }
+        let facets = holds.iter().map(|_| AtomicU32::new(u32::MAX)).collect();
+        Self { target, anchors, holds, facets, places, leashes, weight: 0.0, surfaces: 1.0 }
     }
 
     /// With the holds given, where nodes that are off the solid, or on leashes, come no farther from their feet than they are.
@@ -95,6 +100,11 @@ impl<'a> Holds<'a> {
     pub(super) fn leash_of(&self, node: NodeId) -> f64 {
         let place = self.leashes.binary_search_by_key(&node, |&(node, _)| node);
         place.map_or(0.0, |place| self.leashes[place].1)
+    }
+
+    /// The foot of a node that may be at `p`.
+    fn foot(&self, node: NodeId, p: Point) -> Option<Foot> {
+        self.target.foot_from(&self.facets[node.index()], self.anchors[node.index()], p)
     }
 
     /// Where on its curve a node is drawn, if that is not its foot.
@@ -128,17 +138,16 @@ impl<'a> Holds<'a> {
 
 impl Guide for Holds<'_> {
     fn tangent(&self, node: NodeId, p: Point) -> Symmetric {
-        let foot = || self.target.foot(self.anchors[node.index()], p);
         let across = |v: Point| Symmetric::IDENTITY + Symmetric::outer(v) * -1.0;
         match self.holds[node.index()] {
             Hold::Free | Hold::Leashed => Symmetric::IDENTITY,
             Hold::Drawn if self.weight > 0.0 => Symmetric::IDENTITY,
             Hold::Drawn => {
-                let away = foot().map_or(Point::ZERO, |foot| p - foot.point);
+                let away = self.foot(node, p).map_or(Point::ZERO, |foot| p - foot.point);
                 across(away.normalize_or_zero())
             }
             Hold::Pinned => Symmetric::default(),
-            Hold::Held => match (self.anchors[node.index()], foot()) {
+            Hold::Held => match (self.anchors[node.index()], self.foot(node, p)) {
                 (Anchor::Surface(_), Some(foot)) => across(foot.direction),
                 (Anchor::Curve(_), Some(foot)) => Symmetric::outer(foot.direction),
                 _ => Symmetric::default(),
@@ -148,8 +157,8 @@ impl Guide for Holds<'_> {
 
     fn project(&self, node: NodeId, _: Point, p: Point) -> Point {
         match self.holds[node.index()] {
-            Hold::Held => self.target.foot(self.anchors[node.index()], p).map_or(p, |foot| foot.point),
-            Hold::Leashed => match self.target.foot(self.anchors[node.index()], p) {
+            Hold::Held => self.foot(node, p).map_or(p, |foot| foot.point),
+            Hold::Leashed => match self.foot(node, p) {
                 Some(foot) => foot.point + (p - foot.point).clamp_length_max(self.leash_of(node)),
                 None => p,
             },
@@ -162,7 +171,7 @@ impl Guide for Holds<'_> {
             return None;
         }
         let anchor = self.anchors[node.index()];
-        let foot = self.target.foot(anchor, p)?;
+        let foot = self.foot(node, p)?;
         let along = Symmetric::outer(foot.direction);
         let place = self.place(node);
         let shape = match (anchor, place) {

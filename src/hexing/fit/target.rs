@@ -1,7 +1,9 @@
 //! Where on the solid a node belongs.
 
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
 use super::super::correspondence::{Anchor, Reduction};
-use crate::geometry::Point;
+use crate::geometry::{Point, closest_on_triangle};
 use crate::solid::{SolidModel, SurfaceClass, SurfaceId};
 
 /// The point of a corner, curve or surface that is nearest to a node.
@@ -17,6 +19,12 @@ pub(in super::super) trait Target: Sync {
     /// The foot of a node at `p`; `None` for nodes that are inside.
     fn foot(&self, anchor: Anchor, p: Point) -> Option<Foot>;
 
+    /// The same, for a node that stood on the `last` facet, which is remembered from foot to foot: where it still stands
+    /// there, that need not be looked for.
+    fn foot_from(&self, _last: &AtomicU32, anchor: Anchor, p: Point) -> Option<Foot> {
+        self.foot(anchor, p)
+    }
+
     /// The solid, if there is one, along whose curves nodes can be spread.
     fn solid(&self) -> Option<&SolidModel> {
         None
@@ -26,6 +34,9 @@ pub(in super::super) trait Target: Sync {
 /// A surface is flat if no point of it is farther from its plane than this share of the solid's diagonal.
 const FLAT: f64 = 1e-9;
 
+/// A node stands on a facet that is no farther from it than this share of the solid's diagonal.
+const ON: f64 = 1e-12;
+
 /// A solid, of which some surfaces stand for others.
 pub(in super::super) struct OnSolid<'a> {
     solid: &'a SolidModel,
@@ -33,6 +44,8 @@ pub(in super::super) struct OnSolid<'a> {
     /// The plane of each flat surface that stands for itself alone: feet there need no search, and may lie beyond the
     /// surface's curves, as its nodes do not.
     planes: Vec<Option<Plane>>,
+    /// How far a node that stands on a facet is from it at most, squared.
+    on_squared: f64,
 }
 
 struct Plane {
@@ -44,7 +57,19 @@ impl<'a> OnSolid<'a> {
     pub(in super::super) fn new(solid: &'a SolidModel, reduction: &'a Reduction) -> Self {
         let planes =
             (0..solid.surfaces().len()).map(SurfaceId::new).map(|s| plane(solid, reduction, s)).collect();
-        Self { solid, reduction, planes }
+        let on = ON * solid.diagonal();
+        Self { solid, reduction, planes, on_squared: on * on }
+    }
+}
+
+impl OnSolid<'_> {
+    /// The foot of `p`, if it stands on this triangle of the solid and that is of the surface.
+    fn standing(&self, triangle: usize, surface: SurfaceId, p: Point) -> Option<Foot> {
+        let &direction = self.solid.normals().get(triangle)?;
+        let point = closest_on_triangle(p, self.solid.corners_of(triangle));
+        let is_there = point.distance_squared(p) <= self.on_squared
+            && self.reduction.surface(self.solid.surface_of(triangle)) == surface;
+        is_there.then_some(Foot { point, direction })
     }
 }
 
@@ -82,7 +107,68 @@ impl Target for OnSolid<'_> {
         }
     }
 
+    fn foot_from(&self, last: &AtomicU32, anchor: Anchor, p: Point) -> Option<Foot> {
+        let Anchor::Surface(surface) = anchor else { return self.foot(anchor, p) };
+        if self.planes[surface.index()].is_some() {
+            return self.foot(anchor, p);
+        }
+        if let Some(foot) = self.standing(last.load(Relaxed) as usize, surface, p) {
+            return Some(foot);
+        }
+        let foot = self.reduction.nearest_on_surface(self.solid, surface, p);
+        last.store(foot.triangle, Relaxed);
+        Some(Foot { point: foot.point, direction: foot.normal })
+    }
+
     fn solid(&self) -> Option<&SolidModel> {
         Some(self.solid)
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::Silent;
+    use crate::hexing::correspondence::correspond;
+    use crate::mesh::{GridOptions, hex_grid};
+    use crate::solid::testing::{moved, solid, voxels};
+
+    #[test]
+    fn the_foot_is_the_same_whatever_facet_is_remembered() {
+        let bend = |p: Point| if p.z == 3.0 { p + Point::Z * (0.1 * p.x * (6.0 - p.x)) } else { p };
+        let solid = solid(&moved(voxels([6, 3, 3], |_| true), bend));
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: true, max_hexes: 1000 };
+        let mesh = hex_grid(solid.bounds(), &options).unwrap();
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let target = OnSolid::new(&solid, &on.reduction);
+        let general =
+            (0..solid.surfaces().len()).map(SurfaceId::new).find(|s| target.planes[s.index()].is_none());
+        let top = general.expect("the top is bent");
+        let of_top = |t: usize| solid.surface_of(t) == top;
+        let count = solid.triangles().len();
+        assert!((0..count).any(of_top) && !(0..count).all(of_top));
+        for t in (0..count).filter(|&t| of_top(t)) {
+            let [a, b, c] = solid.corners_of(t);
+            let normal = solid.normals()[t];
+            let places =
+                [(a + b + c) / 3.0, (a + b) / 2.0, a, a.lerp(b, 0.3) + normal * 0.2, c - normal * 0.1];
+            for (k, p) in places.into_iter().enumerate() {
+                let found = target.foot(Anchor::Surface(top), p).unwrap();
+                for remembered in 0..=count as u32 {
+                    let last =
+                        AtomicU32::new(if remembered as usize == count { u32::MAX } else { remembered });
+                    let foot = target.foot_from(&last, Anchor::Surface(top), p).unwrap();
+                    assert!(foot.point.distance(found.point) < 1e-11, "{t} {k} {remembered}");
+                    let stands_on = last.into_inner() as usize;
+                    assert!(of_top(stands_on) && foot.direction == solid.normals()[stands_on]);
+                    let on_it = closest_on_triangle(p, solid.corners_of(stands_on));
+                    assert!(on_it.distance(foot.point) < 1e-11, "{t} {k} {remembered}");
+                }
+            }
+            // The middle of a facet that is remembered is not looked for: it is the facet's own.
+            let last = AtomicU32::new(t as u32);
+            let foot = target.foot_from(&last, Anchor::Surface(top), places[0]).unwrap();
+            assert_eq!((foot.direction, last.into_inner()), (normal, t as u32));
+        }
     }
 }
