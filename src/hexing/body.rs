@@ -9,7 +9,7 @@
 //!    but does not show all is refined in its turn.
 //! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
-//!    octree, and 2 for that.
+//!    octree, and 2 for that. What shows less than half before it is fitted is not fitted before that.
 //!
 //! A mesh that misses nothing but is too far from the solid is first brought nearer with cells that are fair instead of good
 //! (`attempt`).
@@ -93,6 +93,10 @@ pub(super) fn mesh_body(
     }
     if site.may_be_octree() && search.is_other() {
         search.octree()?;
+        if search.waits() {
+            search.fit_best()?;
+            search.refine(options.max_hexes)?;
+        }
     }
     search.settle()?;
     match (&search.best, search.tangled) {
@@ -104,11 +108,11 @@ pub(super) fn mesh_body(
 impl Search<'_> {
     /// Refines where the best attempt missed something, and tries again, as often as that helps, with at most so many
     /// hexes. What is known of a draft may not be all: if smaller cells there are not better it is fitted, and refined by
-    /// what that missed.
+    /// what that missed, unless an octree comes first.
     fn refine(&mut self, max_hexes: u64) -> Result<(), HexingError> {
         for round in 1..=self.site.options.max_levels {
             if !self.is_refined(round, max_hexes)? {
-                if !self.waits() {
+                if !self.waits() || self.octree_is_first() {
                     return Ok(());
                 }
                 self.fit_best()?;
@@ -117,7 +121,7 @@ impl Search<'_> {
                 }
             }
         }
-        if self.waits() { self.fit_best() } else { Ok(()) }
+        if self.waits() && !self.octree_is_first() { self.fit_best() } else { Ok(()) }
     }
 
     /// Makes an attempt with smaller cells where the best missed something. False if it is no better.
@@ -131,6 +135,12 @@ impl Search<'_> {
             self.another(plan, self.limit().min(max_hexes))?;
         }
         Ok(self.number() != before)
+    }
+
+    /// Will an octree be tried, whatever comes of a fit, since the best draft shows too little?
+    fn octree_is_first(&self) -> bool {
+        let may_be_octree = self.site.may_be_octree() && self.site.options.max_levels > 0;
+        may_be_octree && !self.has_tried(Background::Octree) && self.shows_little()
     }
 
     /// Tries an octree, with cells as small in details as there can be, and refines it if that is better.
@@ -219,6 +229,7 @@ impl Search<'_> {
 mod tests {
     use super::super::attempt::draft;
     use super::super::merit::distance;
+    use super::super::report::AttemptReport;
     use super::*;
     use crate::Silent;
     use crate::geometry::Point;
@@ -309,6 +320,30 @@ mod tests {
         assert!(!other.waits() && !other.is_good());
         other.settle().unwrap();
         assert!(other.waiting.is_empty() && other.is_good() && other.attempts.len() == 1);
+    }
+
+    /// It is tried whatever comes of the fit.
+    #[test]
+    fn a_draft_that_shows_little_is_not_fitted_before_an_octree_was_tried() {
+        let solid = solid(&voxels([4, 4, 4], |_| true));
+        let options = HexingOptions { edge_length: 1.0, ..HexingOptions::default() };
+        let site = Site::new(&solid, &options, &Silent).unwrap();
+        let showing = |curves: usize| {
+            let mut search = with_draft(&site, 2);
+            let features = search.attempts[0].features.as_mut().unwrap();
+            assert_eq!((features.curves.captured, features.surfaces.captured), (12, 6));
+            features.curves.captured = curves;
+            search
+        };
+        for (curves, waits) in [(3, false), (2, true)] {
+            let mut search = showing(curves);
+            search.refine(options.max_hexes).unwrap();
+            assert_eq!((search.waits(), search.is_other()), (waits, waits));
+        }
+        let mut search = showing(2);
+        search.attempts.push(AttemptReport { background: Background::Octree, ..search.attempts[0].clone() });
+        search.refine(options.max_hexes).unwrap();
+        assert!(!search.waits() && search.is_good());
     }
 
     #[test]

@@ -178,8 +178,13 @@ impl<'a> Search<'a> {
 
     /// Is what came of it so far not what was asked for: of another kind, or far off, or without many of the features?
     pub(super) fn is_other(&self) -> bool {
-        self.best_report()
-            .is_none_or(|best| self.is_astray() || captured(best.features.as_ref()) < self.site.taste.shown)
+        self.is_astray() || self.shows_little()
+    }
+
+    /// Does the best attempt show less of the features than was asked for?
+    pub(super) fn shows_little(&self) -> bool {
+        let is_little = |best: &AttemptReport| captured(best.features.as_ref()) < self.site.taste.shown;
+        self.best_report().is_none_or(is_little)
     }
 
     /// Is the best attempt so far off that it does not show some part of the solid?
