@@ -145,9 +145,16 @@ impl<'a> Constraints<'a> {
     }
 }
 
-impl Guide for Constraints<'_> {
+/// Keeps nodes to their constraints, from where they are at first on.
+pub(super) struct Constrained<'a> {
+    pub(super) constraints: &'a Constraints<'a>,
+    pub(super) positions: &'a [Point],
+}
+
+impl Guide for Constrained<'_> {
     fn tangent(&self, node: NodeId, p: Point) -> Symmetric {
-        match (self.freedom[node.index()], self.surface) {
+        let Constraints { surface, ref freedom, .. } = *self.constraints;
+        match (freedom[node.index()], surface) {
             (Freedom::Patch(patch), Some(surface)) => {
                 Symmetric::IDENTITY + Symmetric::outer(surface.normal(patch, p)) * -1.0
             }
@@ -157,10 +164,12 @@ impl Guide for Constraints<'_> {
         }
     }
 
-    fn project(&self, node: NodeId, anchor: Point, p: Point) -> Point {
-        match (self.freedom[node.index()], self.surface) {
-            (Freedom::Patch(patch), Some(surface)) if self.is_bounded => surface.closest_on_patch(patch, p),
-            (Freedom::Curve(curve), Some(surface)) if self.is_bounded => surface.closest_on_curve(curve, p),
+    fn project(&self, node: NodeId, p: Point) -> Point {
+        let Constraints { surface, is_bounded, ref freedom } = *self.constraints;
+        let anchor = self.positions[node.index()];
+        match (freedom[node.index()], surface) {
+            (Freedom::Patch(patch), Some(surface)) if is_bounded => surface.closest_on_patch(patch, p),
+            (Freedom::Curve(curve), Some(surface)) if is_bounded => surface.closest_on_curve(curve, p),
             (Freedom::Patch(patch), Some(surface)) => surface.onto_patch(patch, anchor, p),
             (Freedom::Curve(curve), Some(surface)) => surface.onto_curve(curve, anchor, p),
             (Freedom::Fixed, _) => anchor,

@@ -9,12 +9,25 @@ pub(crate) trait Guide: Sync {
     /// The projector to the directions in which the node may go from `p`.
     fn tangent(&self, node: NodeId, p: Point) -> Symmetric;
 
-    /// Where the node may be that is near to `p`; it was at `anchor` at first.
-    fn project(&self, node: NodeId, anchor: Point, p: Point) -> Point;
+    /// Where the node may be that is near to `p`.
+    fn project(&self, node: NodeId, p: Point) -> Point;
 
     /// What draws the node when it is at `p`, with edges of the mean length `size`.
     fn pull(&self, _node: NodeId, _p: Point, _size: f64) -> Option<Pull> {
         None
+    }
+}
+
+/// All nodes go anywhere.
+pub(crate) struct Free;
+
+impl Guide for Free {
+    fn tangent(&self, _: NodeId, _: Point) -> Symmetric {
+        Symmetric::IDENTITY
+    }
+
+    fn project(&self, _: NodeId, p: Point) -> Point {
+        p
     }
 }
 

@@ -27,7 +27,7 @@ mod symmetric;
 mod untangle;
 
 pub(crate) use energy::Weights;
-pub(crate) use guide::{Guide, Pull};
+pub(crate) use guide::{Free, Guide, Pull};
 pub(crate) use problem::Problem;
 pub(crate) use smooth::{Evening, even_out, keep_positive, smooth};
 pub(crate) use star::Star;
@@ -35,6 +35,7 @@ pub(crate) use sweep::{Moved, Rules, sweep, wake, worst_kept};
 pub(crate) use symmetric::Symmetric;
 pub(crate) use untangle::untangle;
 
+use constraint::Constrained;
 pub use constraint::{Constraints, Freedom};
 pub use surface::{BoundarySurface, FaceKind};
 
@@ -127,11 +128,12 @@ pub fn optimize(
     let moves = |n: NodeId| movable[n.index()] && !constraints.is_fixed(n);
     let mut problem = Problem::within(positions, hexes, &moves, monitor)?;
     let before = problem.state(monitor)?;
-    let mut sweeps = untangle(&mut problem, constraints, options, monitor)?;
-    sweeps += smooth(&mut problem, constraints, options, None, monitor)?;
+    let guide = Constrained { constraints, positions };
+    let mut sweeps = untangle(&mut problem, &guide, options, monitor)?;
+    sweeps += smooth(&mut problem, &guide, options, None, monitor)?;
     let mut after = problem.state(monitor)?;
     if after.is_worse_than(&before) {
-        problem.points.clone_from(&problem.anchors);
+        problem.put_back(positions);
         after = before.clone();
     }
     let mut inverted = after.inverted(&problem);

@@ -16,10 +16,9 @@ const ASKED: u32 = 1 << 14;
 
 /// The cells around the movable nodes. Nodes of the problem are numbered in the mesh's order, movable ones first.
 pub(crate) struct Problem {
-    /// The mesh's node of each node, and where the node is, and was at first.
+    /// The mesh's node of each node, and where the node is.
     pub(crate) nodes: Vec<NodeId>,
     pub(crate) points: Vec<Point>,
-    pub(crate) anchors: Vec<Point>,
     /// The nodes of each cell, and the mesh's hex.
     pub(crate) cells: Vec<[u32; 8]>,
     hexes: Vec<HexId>,
@@ -77,7 +76,6 @@ impl Problem {
         let (starts, around) = stars(&cells, movable_count, monitor)?;
         let size = |c: usize| cell_size(&cells[c].map(|n| points[n as usize]));
         let mut problem = Self {
-            anchors: points.clone(),
             hexes: touched.into_iter().map(HexId).collect(),
             volume: parallel::try_collect(cells.len(), monitor, size)?,
             positive: Vec::new(),
@@ -226,6 +224,13 @@ impl Problem {
             colours[colour].push(node);
         }
         Ok(colours)
+    }
+
+    /// Takes the nodes back to where the mesh has them.
+    pub(crate) fn put_back(&mut self, positions: &[Point]) {
+        for (node, point) in self.nodes.iter().zip(&mut self.points) {
+            *point = positions[node.index()];
+        }
     }
 
     /// Copies the nodes back into the mesh; how many stand elsewhere than before.

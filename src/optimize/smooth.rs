@@ -240,7 +240,7 @@ pub(crate) fn keep_positive(
 
 #[cfg(test)]
 mod tests {
-    use super::super::Constraints;
+    use super::super::Free;
     use super::*;
     use crate::Silent;
     use crate::geometry::{Aabb, Point};
@@ -268,10 +268,9 @@ mod tests {
         }
         for evening in Evening::ALL {
             let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|n| inside[n.index()]);
-            let free = Constraints::none(mesh.positions.len());
             let before = problem.state(&Silent).unwrap();
             assert!(before.mean() < 0.9);
-            let sweeps = even_out(&mut problem, &free, evening, &Silent).unwrap();
+            let sweeps = even_out(&mut problem, &Free, evening, &Silent).unwrap();
             assert!((1..=2 * evening.sweeps).contains(&sweeps), "{sweeps}");
             let after = problem.state(&Silent).unwrap();
             assert!(
@@ -294,13 +293,12 @@ mod tests {
         for p in mesh.positions.iter_mut().filter(|p| is_axis(**p)) {
             *p += Point::new(0.0, 0.5, -0.4);
         }
-        let free = Constraints::none(mesh.positions.len());
         let smoothed = |again: bool| {
             let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|n| axis[n.index()]);
             let before = problem.points.clone();
             let moved: Vec<bool> = before[..problem.movable()].iter().map(|p| p.x == 2.0).collect();
             let moved = again.then_some(moved.as_slice());
-            smooth(&mut problem, &free, &OptimizeOptions::default(), moved, &Silent).unwrap();
+            smooth(&mut problem, &Free, &OptimizeOptions::default(), moved, &Silent).unwrap();
             let moved = (0..problem.movable()).filter(|&n| problem.points[n] != before[n]);
             moved.map(|n| before[n].x).fold(0.0, f64::max)
         };
@@ -319,8 +317,7 @@ mod tests {
         mesh.positions.iter_mut().for_each(|p| p.x += 10.0 * libm::sin(p.z * std::f64::consts::PI / 40.0));
         let evening = Evening::ALL[1];
         let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|n| moves[n.index()]);
-        let free = Constraints::none(mesh.positions.len());
-        let sweeps = even_out(&mut problem, &free, evening, &Silent).unwrap();
+        let sweeps = even_out(&mut problem, &Free, evening, &Silent).unwrap();
         assert!(sweeps > evening.sweeps && sweeps <= 2 * evening.sweeps, "{sweeps}");
     }
 

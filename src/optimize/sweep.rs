@@ -137,7 +137,7 @@ fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Optio
     star.gather(problem, node, rules.eps);
     let from = problem.points[node as usize];
     let (mut here, worst) = star.expand(from, rules.weights)?;
-    let (id, anchor) = (problem.nodes[node as usize], problem.anchors[node as usize]);
+    let id = problem.nodes[node as usize];
     let size = star.size;
     let pull = rules.guide.pull(id, from, size);
     if let Some(pull) = pull {
@@ -145,7 +145,7 @@ fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Optio
     }
     let step = newton(here, rules.guide.tangent(id, from), size)?;
     let kept = rules.floor.map(|floor| worst_kept(worst, floor));
-    let at = |share: f64| rules.guide.project(id, anchor, from + step * share);
+    let at = |share: f64| rules.guide.project(id, from + step * share);
     let mut lowered = |to: Point, limit: f64| {
         let drawn = pull.map_or(0.0, |pull| pull.energy(to));
         let Reading { energy, worst } = star.read(to, rules.weights, limit - drawn)?;

@@ -155,7 +155,7 @@ impl Guide for Holds<'_> {
         }
     }
 
-    fn project(&self, node: NodeId, _: Point, p: Point) -> Point {
+    fn project(&self, node: NodeId, p: Point) -> Point {
         match self.holds[node.index()] {
             Hold::Held => self.foot(node, p).map_or(p, |foot| foot.point),
             Hold::Leashed => match self.foot(node, p) {
@@ -210,14 +210,14 @@ mod tests {
         assert!(kept.is(top, Hold::Leashed) && kept.is(corner, Hold::Held));
         // Along the surface and nearer to it as the node likes.
         for free in [Point::new(1.0, 3.0, 3.5), Point::new(2.0, 2.0, 4.0), Point::new(2.0, 2.0, 3.9)] {
-            assert_eq!(kept.project(top, free, free), free);
+            assert_eq!(kept.project(top, free), free);
         }
         let far = Point::new(1.0, 2.0, 2.5);
-        assert_eq!(kept.project(top, far, far), Point::new(1.0, 2.0, 3.5));
+        assert_eq!(kept.project(top, far), Point::new(1.0, 2.0, 3.5));
         let away = Point::new(-0.5, 0.0, 0.0);
-        assert_eq!(kept.project(corner, away, away), Point::ZERO);
+        assert_eq!(kept.project(corner, away), Point::ZERO);
         kept.leash(corner, 0.25);
-        assert_eq!(kept.project(corner, away, away), Point::X * -0.25);
+        assert_eq!(kept.project(corner, away), Point::X * -0.25);
         assert_eq!(kept.tangent(corner, away), Symmetric::IDENTITY);
     }
 }

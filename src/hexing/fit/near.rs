@@ -17,7 +17,7 @@ use super::{FITTING, LEAVE, quality};
 use crate::geometry::Point;
 use crate::mesh::{HexMesh, NodeId};
 use crate::optimize::{
-    Constraints, Evening, Moved, Problem, Star, Weights, even_out, keep_positive, wake, worst_kept,
+    Evening, Free, Moved, Problem, Star, Weights, even_out, keep_positive, wake, worst_kept,
 };
 use crate::{Cancelled, Monitor, parallel};
 
@@ -152,7 +152,7 @@ fn follow(
     widen(mesh, &mut is_near, RINGS, monitor)?;
     let moves = |n: NodeId| is_near[n.index()] && on.anchors[n.index()] == Anchor::Inside;
     let mut inside = Problem::within(&mesh.positions, &mesh.hexes, &moves, monitor)?;
-    let sweeps = even_out(&mut inside, &Constraints::none(mesh.positions.len()), evening, monitor)?;
+    let sweeps = even_out(&mut inside, &Free, evening, monitor)?;
     inside.write_back(&mut mesh.positions);
     Ok(sweeps)
 }

@@ -66,8 +66,8 @@ impl<'a> Survey<'a> {
         faces: &[([NodeId; 4], SurfaceId)],
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
-        let (before, quads) = (std::mem::take(&mut self.quads), quads(mesh, faces));
-        let has_moved: Vec<bool> = (0..quads.len()).map(|q| before.get(q) != Some(&quads[q])).collect();
+        let has_moved = self.follow(mesh, faces);
+        let quads = &self.quads;
         let of_mesh = std::mem::take(&mut self.of_mesh);
         for start in (0..quads.len()).step_by(BATCH) {
             monitor.proceed()?;
@@ -80,9 +80,9 @@ impl<'a> Survey<'a> {
                 quad.iter().copied().chain(middles(quad)).map(apart).fold(0.0, f64::max)
             });
         }
-        self.nearest = self.nearest_halves(&quads, &has_moved, monitor)?;
+        self.nearest = self.nearest_halves(&has_moved, monitor)?;
         let quad_of = |k: usize| self.nearest[k].0 as usize / 2;
-        self.of_solid = Bins::monitored(quads.len(), self.samples.len(), quad_of, monitor)?;
+        self.of_solid = Bins::monitored(self.quads.len(), self.samples.len(), quad_of, monitor)?;
         let distance = |k: u32| self.nearest[k as usize].1.sqrt();
         self.distances.clear();
         for (quad, &of_mesh) in self.of_mesh.iter().enumerate() {
@@ -95,8 +95,19 @@ impl<'a> Survey<'a> {
             let farthest = samples.first().map_or(0.0, |&k| distance(k));
             self.distances.push(of_mesh.max(farthest));
         }
-        self.quads = quads;
         Ok(())
+    }
+
+    /// Takes the quads to where the faces are. Which of them were elsewhere.
+    fn follow(&mut self, mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Vec<bool> {
+        let mut has_moved = vec![false; faces.len()];
+        self.quads.resize(faces.len(), [Point::NAN; 4]);
+        for (((nodes, _), quad), has_moved) in faces.iter().zip(&mut self.quads).zip(&mut has_moved) {
+            let now = nodes.map(|n| mesh.positions[n.index()]);
+            *has_moved = *quad != now;
+            *quad = now;
+        }
+        has_moved
     }
 
     /// The samples of the solid that count at a quad.
@@ -107,10 +118,10 @@ impl<'a> Survey<'a> {
     /// What is nearest to each sample. Where that has not moved, only what has can be nearer.
     fn nearest_halves(
         &self,
-        quads: &[[Point; 4]],
         has_moved: &[bool],
         monitor: &dyn Monitor,
     ) -> Result<Vec<(u32, f64)>, Cancelled> {
+        let quads = &self.quads;
         let mut moved: Vec<u32> = (0..quads.len() as u32).filter(|&q| has_moved[q as usize]).collect();
         // Where most has moved a tree of that alone is hardly smaller than one of all.
         let is_known = !self.nearest.is_empty() && 2 * moved.len() <= quads.len();
