@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use super::super::correspondence::{Anchor, Reduction};
-use crate::geometry::{Point, closest_on_triangle};
+use crate::geometry::{Point, triangle_weights};
 use crate::solid::{SolidModel, SurfaceClass, SurfaceId};
 
 /// The point of a corner, curve or surface that is nearest to a node.
@@ -37,6 +37,9 @@ const FLAT: f64 = 1e-9;
 /// A node stands on a facet that is no farther from it than this share of the solid's diagonal.
 const ON: f64 = 1e-12;
 
+/// And it stands at the edges of one if the weight of a corner is no more than this.
+const INSIDE: f64 = 1e-6;
+
 /// A solid, of which some surfaces stand for others.
 pub(in super::super) struct OnSolid<'a> {
     solid: &'a SolidModel,
@@ -63,11 +66,15 @@ impl<'a> OnSolid<'a> {
 }
 
 impl OnSolid<'_> {
-    /// The foot of `p`, if it stands on this triangle of the solid and that is of the surface.
+    /// The foot of `p`, if it stands on this triangle of the solid, which is of the surface, and not at its edges: the same as
+    /// that which is found.
     fn standing(&self, triangle: usize, surface: SurfaceId, p: Point) -> Option<Foot> {
         let &direction = self.solid.normals().get(triangle)?;
-        let point = closest_on_triangle(p, self.solid.corners_of(triangle));
-        let is_there = point.distance_squared(p) <= self.on_squared
+        let corners = self.solid.corners_of(triangle);
+        let [a, b, c] = triangle_weights(p, corners);
+        let point = corners[0] * a + corners[1] * b + corners[2] * c;
+        let is_there = a.min(b).min(c) > INSIDE
+            && point.distance_squared(p) <= self.on_squared
             && self.reduction.surface(self.solid.surface_of(triangle)) == surface;
         is_there.then_some(Foot { point, direction })
     }
@@ -158,17 +165,16 @@ mod tests {
                     let last =
                         AtomicU32::new(if remembered as usize == count { u32::MAX } else { remembered });
                     let foot = target.foot_from(&last, Anchor::Surface(top), p).unwrap();
-                    assert!(foot.point.distance(found.point) < 1e-11, "{t} {k} {remembered}");
-                    let stands_on = last.into_inner() as usize;
-                    assert!(of_top(stands_on) && foot.direction == solid.normals()[stands_on]);
-                    let on_it = closest_on_triangle(p, solid.corners_of(stands_on));
-                    assert!(on_it.distance(foot.point) < 1e-11, "{t} {k} {remembered}");
+                    assert_eq!(foot, found, "{t} {k} {remembered}");
+                    assert!(of_top(last.into_inner() as usize));
                 }
             }
             // The middle of a facet that is remembered is not looked for: it is the facet's own.
             let last = AtomicU32::new(t as u32);
             let foot = target.foot_from(&last, Anchor::Surface(top), places[0]).unwrap();
             assert_eq!((foot.direction, last.into_inner()), (normal, t as u32));
+            assert!(target.standing(t, top, places[0]).is_some());
+            assert!(places[1..].iter().all(|&p| target.standing(t, top, p).is_none()));
         }
     }
 }
