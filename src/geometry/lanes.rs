@@ -37,8 +37,8 @@ pub(crate) fn sum<S: Simd>(lanes: f64x4<S>) -> f64 {
     (a + b) + (c + d)
 }
 
-/// Four numbers side by side, which come from different places. What the web makes of an array of them stores each alone
-/// and loads two together, for which processors have to wait.
+/// Four numbers side by side, which come from different places. Without an array of them, which in WebAssembly would be
+/// stored number by number and loaded again two by two.
 #[inline(always)]
 fn row<S: Simd>(simd: S, [a, b, c, d]: Row) -> f64x4<S> {
     let pair = |a: f64, b: f64| f64x2::splat(simd, a).zip_low(f64x2::splat(simd, b));
