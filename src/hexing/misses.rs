@@ -21,31 +21,49 @@ pub(super) fn tolerance(site: &Site<'_>, kind: Background) -> f64 {
 /// A closed curve needs so many edges to be routed.
 const AROUND: f64 = 2.5;
 
-/// The cells of a background that are finer than the coarsest.
+/// The cells of a background that are finer than the coarsest. They are many, and kept throughout a fit, after which few
+/// points are asked for: so they take little memory, and are walked over.
+#[derive(Default)]
 pub(super) struct FineCells {
-    index: BoxIndex,
+    /// Where shares are counted from, and how many of a unit of length.
+    origin: Point,
+    scale: f64,
+    /// A box around each cell, in shares, rounded outwards.
+    boxes: Vec<[[f32; 3]; 2]>,
     levels: Vec<u8>,
 }
 
 impl FineCells {
     pub(super) fn of(background: &OctreeMesh) -> Self {
         let OctreeMesh { mesh, level } = background;
-        let fine: Vec<usize> = (0..level.len()).filter(|&hex| level[hex] > 0).collect();
-        let bounds = |&hex: &usize| Aabb::around(&mesh.hexes[hex].map(|n| mesh.positions[n.index()]));
-        Self {
-            index: BoxIndex::new(fine.iter().map(bounds)),
-            levels: fine.iter().map(|&hex| level[hex]).collect(),
-        }
+        let around = Aabb::around(&mesh.positions);
+        let scale = 1.0 / around.size().max_element();
+        let mut cells = Self { origin: around.min, scale, boxes: Vec::new(), levels: Vec::new() };
+        let fine = (0..level.len()).filter(|&hex| level[hex] > 0);
+        let bounds = |hex: usize| {
+            let Aabb { min, max } = Aabb::around(&mesh.hexes[hex].map(|n| mesh.positions[n.index()]));
+            let [min, max] = [min, max].map(|p| cells.share(p).to_array().map(|x| x as f32));
+            [min.map(f32::next_down), max.map(f32::next_up)]
+        };
+        cells.boxes = fine.clone().map(bounds).collect();
+        cells.levels = fine.map(|hex| level[hex]).collect();
+        cells
     }
 
-    /// The level of the coarsest of the cells around some points.
-    fn around(&self, points: &[Point]) -> u8 {
-        let at = |&p: &Point| {
-            let here = Aabb { min: p, max: p };
-            let found = self.index.touching(&here);
-            found.map(|cell| self.levels[cell]).max().unwrap_or(0)
-        };
-        points.iter().map(at).min().unwrap_or(0)
+    fn share(&self, p: Point) -> Point {
+        (p - self.origin) * self.scale
+    }
+
+    /// The level of the finest cell at each point.
+    fn finest(&self, points: impl Iterator<Item = Point>) -> Vec<u8> {
+        let shares: Vec<Point> = points.map(|p| self.share(p)).collect();
+        let index = BoxIndex::of_points(&shares);
+        let mut finest = vec![0; shares.len()];
+        for (&[min, max], &level) in self.boxes.iter().zip(&self.levels) {
+            let [min, max] = [min, max].map(|p| Point::from(p.map(f64::from)));
+            index.touching(&Aabb { min, max }).for_each(|p| finest[p] = level.max(finest[p]));
+        }
+        finest
     }
 }
 
@@ -79,7 +97,11 @@ pub(super) fn misses(
         failures.extend(core.lost.iter().map(|part| Failure::of_lost(part.centers.clone(), 0)));
     }
     failures.extend(far.into_iter().map(|place| Failure::of_far(place, 0)));
-    failures.iter_mut().for_each(|failure| failure.level = cells.around(&failure.points));
+    let mut finest =
+        cells.finest(failures.iter().flat_map(|failure| failure.points.iter().copied())).into_iter();
+    for failure in &mut failures {
+        failure.level = finest.by_ref().take(failure.points.len()).min().unwrap_or(0);
+    }
     failures
 }
 
@@ -89,7 +111,8 @@ mod tests {
     use super::super::options::HexingOptions;
     use super::*;
     use crate::Silent;
-    use crate::mesh::HexMesh;
+    use crate::mesh::numbering::hex::CORNERS;
+    use crate::mesh::{HexMesh, NodeId};
     use crate::solid::testing::{cuboid, solid};
     use crate::solid::{CurveId, SurfaceId};
 
@@ -115,8 +138,29 @@ mod tests {
             .collect();
         let report = CoreReport { euler: 2, solid_euler: 2, ..CoreReport::default() };
         let core = Core { mesh: HexMesh::default(), cells: Vec::new(), report, lost: Vec::new() };
-        let cells = FineCells { index: BoxIndex::new(std::iter::empty()), levels: Vec::new() };
-        misses(&site, Background::Grid, &core, &reduction, Vec::new(), &cells).len()
+        misses(&site, Background::Grid, &core, &reduction, Vec::new(), &FineCells::default()).len()
+    }
+
+    /// A row of cells that are ever finer, far from the origin and of any size.
+    #[test]
+    fn the_finest_cell_at_a_point_is_found() {
+        let cells = |origin: f64, size: f64| {
+            let x = [0.0, 2.0, 3.0, 3.5, 3.75].map(|x| origin + size * x);
+            let corner = |x: f64, [_, y, z]: [u8; 3]| Point::new(x, size * f64::from(y), size * f64::from(z));
+            let positions = x.windows(2).flat_map(|x| CORNERS.map(|c| corner(x[usize::from(c[0])], c)));
+            let hex = |k: u32| std::array::from_fn(|corner| NodeId(8 * k + corner as u32));
+            let mesh = HexMesh {
+                positions: positions.collect(),
+                hexes: (0..4).map(hex).collect(),
+                ..HexMesh::default()
+            };
+            let at =
+                [1.0, 2.0, 2.5, 3.0, 3.2, 3.5, 3.75, 3.76].map(|x| Point::new(origin + size * x, 0.0, size));
+            FineCells::of(&OctreeMesh { mesh, level: vec![0, 1, 2, 3] }).finest(at.into_iter())
+        };
+        for (origin, size) in [(0.0, 1.0), (-1e6, 0.25), (1e40, 1e38), (0.0, 1e-40)] {
+            assert_eq!(cells(origin, size), [0, 1, 1, 2, 2, 3, 3, 0], "{origin} {size}");
+        }
     }
 
     /// Of a cube whose diagonal is 13.86.

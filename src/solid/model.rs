@@ -33,8 +33,7 @@ pub struct SolidModel {
     surfaces: Vec<Surface>,
     is_free_form: bool,
     bounds: Aabb,
-    all: TriangleSearch,
-    by_surface: Vec<TriangleSearch>,
+    by_surface: TriangleSearch,
     by_curve: Vec<CurveSearch>,
 }
 
@@ -100,12 +99,8 @@ impl SolidModel {
         let surfaces = surfaces(shell, &surface_of, &parts.body_of, &curves);
         let points_of =
             |c: &Curve| c.vertices.iter().map(|&v| shell.mesh.points[v as usize]).collect::<Vec<_>>();
-        let by_surface = parallel::try_collect(surfaces.len(), monitor, |s| {
-            TriangleSearch::new(shell, surfaces[s].triangles.iter().map(|&t| t as usize), monitor)
-        })?;
         Ok(Self {
-            all: TriangleSearch::new(shell, 0..shell.mesh.triangles.len(), monitor)?,
-            by_surface: by_surface.into_iter().collect::<Result<_, _>>()?,
+            by_surface: TriangleSearch::new(shell, surfaces.iter().map(|s| &*s.triangles), monitor)?,
             by_curve: parallel::try_collect(curves.len(), monitor, |c| {
                 CurveSearch::new(points_of(&curves[c]))
             })?,
@@ -250,14 +245,14 @@ impl SolidModel {
 
     /// The point of the boundary nearest to `p`.
     pub fn nearest(&self, p: Point) -> Foot {
-        let found = self.all.nearest(p);
+        let found = self.by_surface.nearest(p);
         self.foot(p, found.facet, found.point)
     }
 
     /// The point of a surface nearest to `p`.
     pub fn nearest_on_surface(&self, s: SurfaceId, p: Point) -> Foot {
-        let found = self.by_surface[s.index()].nearest(p);
-        self.foot(p, self.surfaces[s.index()].triangles[found.facet] as usize, found.point)
+        let found = self.by_surface.nearest_of(s.index(), p);
+        self.foot(p, found.facet, found.point)
     }
 
     fn foot(&self, p: Point, triangle: usize, point: Point) -> Foot {
@@ -277,7 +272,7 @@ impl SolidModel {
 
     /// How far `p` is from the boundary; negative inside.
     pub fn signed_distance(&self, p: Point) -> f64 {
-        let found = self.all.nearest(p);
+        let found = self.by_surface.nearest(p);
         self.sides.signed(&self.parts.shell, &self.normals, found.facet, found.point, p)
     }
 

@@ -34,24 +34,32 @@ pub struct CurveFoot {
     pub at: f64,
 }
 
-/// Finds the nearest of some triangles of a shell.
+/// Finds the nearest of the triangles of a shell, or of those of a part of it.
 #[derive(Debug)]
 pub(super) struct TriangleSearch {
     tree: NearestTriangle,
 }
 
 impl TriangleSearch {
-    pub fn new(
+    /// A search among some parts, whose triangles ascend.
+    pub fn new<'a>(
         shell: &Shell,
-        triangles: impl IntoIterator<Item = usize>,
+        parts: impl IntoIterator<Item = &'a [u32]>,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let corners = triangles.into_iter().map(|t| shell.mesh.at(t));
-        Ok(Self { tree: NearestTriangle::within(corners, monitor)? })
+        let numbered = |&t: &u32| (t as usize, shell.mesh.at(t as usize));
+        let parts = parts.into_iter().map(|triangles| triangles.iter().map(numbered));
+        Ok(Self { tree: NearestTriangle::of_groups(parts, monitor)? })
     }
 
+    /// Of all triangles.
     pub fn nearest(&self, p: Point) -> Nearest {
         self.tree.nearest(p).expect("a surface has triangles")
+    }
+
+    /// Of those of a part.
+    pub fn nearest_of(&self, part: usize, p: Point) -> Nearest {
+        self.tree.nearest_of(part, p).expect("a surface has triangles")
     }
 }
 

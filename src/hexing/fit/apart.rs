@@ -256,7 +256,7 @@ mod tests {
         let (solid, mesh) = house(0.0);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let mut survey = Survey::new(&mesh, &on.faces, &solid, &Silent).unwrap();
-        survey.renew(&mesh, &on.faces, &Silent).unwrap();
+        survey.renew(&mesh, &Silent).unwrap();
         let is_outside = |n: NodeId| on.anchors[n.index()] != Anchor::Inside;
         let problem = Problem::new(&mesh.positions, &mesh.hexes, &is_outside);
         let apart = Apart::new(&problem, &on.faces, &survey);

@@ -178,7 +178,7 @@ pub struct Fitted {
 /// `on` and `sheets`; soft curves that leave no room for good cells are given up in `on`.
 ///
 /// # Errors
-/// [`Cancelled`] when the monitor says so; then nodes are where they were.
+/// [`Cancelled`] when the monitor says so; nodes that have moved by then stay where they are.
 pub fn fit(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
@@ -187,25 +187,16 @@ pub fn fit(
     options: &FitOptions,
     monitor: &dyn Monitor,
 ) -> Result<Fitted, Cancelled> {
-    let before = mesh.positions.clone();
     let reduction = on.reduction.clone();
     let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
     let (mut report, mut holds) =
         fitted(mesh, on, sheets, &OnSolid::new(solid, &reduction), options, &part(0.0, SOFTEN))?;
     let mut far = Vec::new();
     if report.inverted.is_empty() {
-        let mut polish = || {
-            let softened = soften(mesh, on, &mut holds, solid, options.max_distance, &part(SOFTEN, EVEN))?;
-            let came = even_and_near(mesh, on, &holds, solid, options.max_distance, &part(EVEN, APPROACH))?;
-            Ok((softened + came.sweeps, came.far))
-        };
-        match polish() {
-            Ok((sweeps, apart)) => (report.sweeps, far) = (report.sweeps + sweeps, apart),
-            Err(cancelled) => {
-                mesh.positions = before;
-                return Err(cancelled);
-            }
-        }
+        let softened = soften(mesh, on, &mut holds, solid, options.max_distance, &part(SOFTEN, EVEN))?;
+        let came = even_and_near(mesh, on, &holds, solid, options.max_distance, &part(EVEN, APPROACH))?;
+        report.sweeps += softened + came.sweeps;
+        far = came.far;
         (report.worst, report.mean) = quality(mesh);
         report.off = off(mesh, on, &holds, &OnSolid::new(solid, &on.reduction));
     }

@@ -35,8 +35,11 @@ pub(super) struct Survey<'a> {
     /// how far that is, squared.
     samples: Vec<Point>,
     nearest: Vec<(u32, f64)>,
-    /// Where the corners of the quads are, and how far these and the middles of their halves are from the solid.
-    quads: Vec<[Point; 4]>,
+    /// The nodes of the boundary, ascending, and where they are.
+    nodes: Vec<NodeId>,
+    places: Vec<Point>,
+    /// Which of them each quad has, and how far these and the middles of its halves are from the solid.
+    quads: Vec<[u32; 4]>,
     of_mesh: Vec<f64>,
     /// The samples at each quad, the farthest first.
     of_solid: Bins,
@@ -54,32 +57,45 @@ impl<'a> Survey<'a> {
     ) -> Result<Self, Cancelled> {
         let edge = mean_edge(&quads(mesh, faces));
         let samples = samples(edge, solid, monitor)?;
-        let (nearest, quads, of_mesh) = (Vec::new(), Vec::new(), Vec::new());
-        let (of_solid, distances) = (Bins::default(), Vec::new());
-        Ok(Self { solid, edge, samples, nearest, quads, of_mesh, of_solid, distances })
+        let mut number = vec![None; mesh.positions.len()];
+        faces.iter().for_each(|(quad, _)| quad.iter().for_each(|n| number[n.index()] = Some(0)));
+        let mut nodes = Vec::new();
+        for (n, number) in number.iter_mut().enumerate().filter(|(_, number)| number.is_some()) {
+            *number = Some(nodes.len() as u32);
+            nodes.push(NodeId::new(n));
+        }
+        let of_quad = |n: NodeId| number[n.index()].expect("a node of the boundary");
+        Ok(Self {
+            solid,
+            edge,
+            samples,
+            nearest: Vec::new(),
+            places: vec![Point::NAN; nodes.len()],
+            nodes,
+            quads: faces.iter().map(|(quad, _)| quad.map(of_quad)).collect(),
+            of_mesh: Vec::new(),
+            of_solid: Bins::default(),
+            distances: Vec::new(),
+        })
     }
 
-    /// Looks at all faces of the mesh, which are as many as before. What was seen of those that are where they were holds.
-    pub(super) fn renew(
-        &mut self,
-        mesh: &HexMesh,
-        faces: &[([NodeId; 4], SurfaceId)],
-        monitor: &dyn Monitor,
-    ) -> Result<(), Cancelled> {
-        let has_moved = self.follow(mesh, faces);
-        let quads = &self.quads;
+    /// Looks at all of the boundary, whose quads are those of before. What was seen of those that are where they were holds.
+    pub(super) fn renew(&mut self, mesh: &HexMesh, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        let has_moved = self.follow(mesh);
         let of_mesh = std::mem::take(&mut self.of_mesh);
-        for start in (0..quads.len()).step_by(BATCH) {
+        let (mut all, count) = (Vec::new(), self.quads.len());
+        for start in (0..count).step_by(BATCH) {
             monitor.proceed()?;
-            parallel::extend(&mut self.of_mesh, BATCH.min(quads.len() - start), |k| {
-                let quad = &quads[start + k];
+            parallel::extend(&mut all, BATCH.min(count - start), |k| {
                 if !has_moved[start + k] {
                     return of_mesh[start + k];
                 }
+                let quad = self.quad(start + k);
                 let apart = |p: Point| self.solid.nearest(p).distance;
-                quad.iter().copied().chain(middles(quad)).map(apart).fold(0.0, f64::max)
+                quad.iter().copied().chain(middles(&quad)).map(apart).fold(0.0, f64::max)
             });
         }
+        self.of_mesh = all;
         self.nearest = self.nearest_halves(&has_moved, monitor)?;
         let quad_of = |k: usize| self.nearest[k].0 as usize / 2;
         self.of_solid = Bins::monitored(self.quads.len(), self.samples.len(), quad_of, monitor)?;
@@ -98,16 +114,20 @@ impl<'a> Survey<'a> {
         Ok(())
     }
 
-    /// Takes the quads to where the faces are. Which of them were elsewhere.
-    fn follow(&mut self, mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Vec<bool> {
-        let mut has_moved = vec![false; faces.len()];
-        self.quads.resize(faces.len(), [Point::NAN; 4]);
-        for (((nodes, _), quad), has_moved) in faces.iter().zip(&mut self.quads).zip(&mut has_moved) {
-            let now = nodes.map(|n| mesh.positions[n.index()]);
-            *has_moved = *quad != now;
-            *quad = now;
+    /// Takes the nodes to where the mesh has them. Which quads have one that was elsewhere.
+    fn follow(&mut self, mesh: &HexMesh) -> Vec<bool> {
+        let mut has_moved = vec![false; self.nodes.len()];
+        for ((node, place), has_moved) in self.nodes.iter().zip(&mut self.places).zip(&mut has_moved) {
+            let now = mesh.positions[node.index()];
+            *has_moved = *place != now;
+            *place = now;
         }
-        has_moved
+        self.quads.iter().map(|quad| quad.iter().any(|&n| has_moved[n as usize])).collect()
+    }
+
+    /// Where the corners of a quad are.
+    fn quad(&self, quad: usize) -> [Point; 4] {
+        self.quads[quad].map(|n| self.places[n as usize])
     }
 
     /// The samples of the solid that count at a quad.
@@ -121,16 +141,16 @@ impl<'a> Survey<'a> {
         has_moved: &[bool],
         monitor: &dyn Monitor,
     ) -> Result<Vec<(u32, f64)>, Cancelled> {
-        let quads = &self.quads;
-        let mut moved: Vec<u32> = (0..quads.len() as u32).filter(|&q| has_moved[q as usize]).collect();
+        let mut moved: Vec<u32> =
+            (0u32..).zip(has_moved).filter_map(|(q, &moved)| moved.then_some(q)).collect();
         // Where most has moved a tree of that alone is hardly smaller than one of all.
-        let is_known = !self.nearest.is_empty() && 2 * moved.len() <= quads.len();
+        let is_known = !self.nearest.is_empty() && 2 * moved.len() <= has_moved.len();
         if !is_known {
             moved.clear();
         }
-        let of_moved =
-            NearestTriangle::within(moved.iter().flat_map(|&q| halves(&quads[q as usize])), monitor)?;
-        let of_all = NearestTriangle::within(quads.iter().flat_map(halves), monitor)?;
+        let halves_of = |quad: usize| halves(&self.quad(quad));
+        let of_moved = NearestTriangle::within(moved.iter().flat_map(|&q| halves_of(q as usize)), monitor)?;
+        let of_all = NearestTriangle::within((0..has_moved.len()).flat_map(halves_of), monitor)?;
         parallel::try_collect(self.samples.len(), monitor, |k| {
             let p = self.samples[k];
             let known = self.nearest.get(k).filter(|(half, _)| is_known && !has_moved[*half as usize / 2]);

@@ -42,12 +42,11 @@ pub(super) fn nesting(shell: &Shell, monitor: &dyn Monitor) -> Result<Nesting, C
         if candidates.is_empty() {
             continue;
         }
-        let search = TriangleSearch::new(shell, all[j].triangles.iter().map(|&t| t as usize), monitor)?;
+        let search = TriangleSearch::new(shell, [&*all[j].triangles], monitor)?;
         for i in candidates {
             let p = shell.mesh.at(all[i].triangles[0] as usize)[0];
             let nearest = search.nearest(p);
-            let triangle = all[j].triangles[nearest.facet] as usize;
-            if sides.signed(shell, &normals, triangle, nearest.point, p) < 0.0 {
+            if sides.signed(shell, &normals, nearest.facet, nearest.point, p) < 0.0 {
                 all[i].around.push(j);
             }
         }

@@ -1,0 +1,291 @@
+//! The point of a surface that is nearest to another point.
+//!
+//! Whoever asks mostly asks again nearby, though not at once. So each thread remembers where the last search for points
+//! around there ended, and begins the next one with the facets there: with a short distance from the first most of the tree
+//! need not be looked at. What is found does not depend on where it began.
+
+mod pack;
+
+use std::cell::Cell;
+use std::ops::Range;
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch};
+
+use super::Point;
+use super::boxes::{Boxes, Cube};
+use super::closest::closest_on_four;
+use super::lanes::{LANES, Row, Rows, SINGLES, Vectors, level};
+
+/// More boxes than ever wait: seven a level, of which 2^31 facets have no more than 11.
+const WAITING: usize = 96;
+
+/// How many searches a thread remembers, at most.
+const REMEMBERED: usize = 1 << 13;
+
+/// No place in a tree.
+const NOWHERE: u32 = u32::MAX;
+
+/// A facet's distance may be computed less than that of the box around it by this share of the greatest coordinate.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+thread_local! {
+    /// The leaves where the last searches ended.
+    static LAST: [Cell<u32>; REMEMBERED] = const { [const { Cell::new(0) }; REMEMBERED] };
+}
+
+/// A piece of a surface.
+pub(crate) trait Facet: Sized {
+    /// How many are looked at together: `LANES` at most.
+    const TOGETHER: usize;
+
+    /// Points whose convex hull it is in.
+    fn corners(&self) -> &[Point];
+
+    /// The points that are closest to `p` of `TOGETHER` facets at most, and how far they are from it, squared. Where there are
+    /// fewer the rest say nothing.
+    fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row);
+}
+
+/// A triangle.
+impl Facet for [Point; 3] {
+    const TOGETHER: usize = LANES;
+
+    fn corners(&self) -> &[Point] {
+        self
+    }
+
+    #[inline(always)]
+    fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
+        let mut four = [&facets[0].facet; LANES];
+        for (lane, numbered) in four.iter_mut().zip(facets) {
+            *lane = &numbered.facet;
+        }
+        let [a, b, c, d] = four;
+        let corners = [
+            Vectors::of(simd, [a[0], b[0], c[0], d[0]]),
+            Vectors::of(simd, [a[1], b[1], c[1], d[1]]),
+            Vectors::of(simd, [a[2], b[2], c[2], d[2]]),
+        ];
+        let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
+        (points.store(), squared.to_array())
+    }
+}
+
+/// Finds, among many facets, the one that is nearest to a point: a tree of boxes, eight of which are looked at side by side.
+/// General R-trees keep a heap for each question, and take several times as long; optimisation asks millions.
+#[derive(Debug)]
+pub(crate) struct NearestFacet<F> {
+    all: Part,
+    /// What may be searched by itself.
+    groups: Vec<Part>,
+    branches: Vec<Branch>,
+    /// The first facet of each leaf, and how many facets there are.
+    leaves: Vec<u32>,
+    /// In the order of the tree.
+    facets: Vec<Numbered<F>>,
+    /// The cube around all.
+    cube: Cube,
+    /// The greatest coordinate, either way.
+    extent: f64,
+}
+
+/// Finds the nearest of many triangles.
+pub(crate) type NearestTriangle = NearestFacet<[Point; 3]>;
+
+/// A facet, and its number: its place in the order in which they were given, if that was not told.
+#[derive(Clone, Debug)]
+pub(crate) struct Numbered<F> {
+    pub(crate) facet: F,
+    index: u32,
+}
+
+/// Some facets: what holds them, and their leaves.
+#[derive(Clone, Debug)]
+struct Part {
+    root: Below,
+    leaves: Range<u32>,
+}
+
+/// Eight boxes. Where there are fewer the rest are infinitely far.
+#[derive(Clone, Debug)]
+struct Branch {
+    boxes: Boxes,
+    below: [Below; SINGLES],
+}
+
+/// What is in a box: twice the place of a branch, or of a leaf and one.
+#[derive(Clone, Copy, Debug)]
+struct Below(u32);
+
+impl Below {
+    fn branch(place: usize) -> Self {
+        Self(2 * place as u32)
+    }
+
+    fn leaf(place: usize) -> Self {
+        Self(2 * place as u32 + 1)
+    }
+
+    /// Behind how far its box is. Distances are not negative: the lesser the distance, the lesser the number.
+    #[inline(always)]
+    fn at(self, distance: f32) -> u64 {
+        u64::from(distance.to_bits()) << 32 | u64::from(self.0)
+    }
+}
+
+/// The point of a facet that is closest to another, how far that is, squared, and the facet's place in the tree and among
+/// those that were given.
+struct Closest {
+    distance: f64,
+    place: u32,
+    index: u32,
+    leaf: u32,
+    point: Point,
+}
+
+impl Closest {
+    /// Boxes that are farther, squared, hold nothing that is computed to be as near.
+    fn limit(&self, rounding: f64) -> f64 {
+        self.distance + rounding * (2.0 * self.distance.sqrt() + rounding)
+    }
+}
+
+impl<F> Numbered<F> {
+    fn with(&self, point: Point) -> Nearest {
+        Nearest { facet: self.index as usize, point }
+    }
+}
+
+/// The facet that is nearest to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nearest {
+    /// Its number.
+    pub(crate) facet: usize,
+    /// Its point that is closest.
+    pub(crate) point: Point,
+}
+
+impl<F: Facet> NearestFacet<F> {
+    /// The facet that is nearest to `p`, the first of those that are equally near; `None` if there are no facets.
+    pub(crate) fn nearest(&self, p: Point) -> Option<Nearest> {
+        self.found(&self.all, p).map(|(numbered, point)| numbered.with(point))
+    }
+
+    /// The same, of the facets of a group.
+    ///
+    /// # Panics
+    /// If there is no such group.
+    pub(crate) fn nearest_of(&self, group: usize, p: Point) -> Option<Nearest> {
+        self.found(&self.groups[group], p).map(|(numbered, point)| numbered.with(point))
+    }
+
+    /// The same, as the facet itself.
+    pub(crate) fn nearest_facet(&self, p: Point) -> Option<&F> {
+        self.found(&self.all, p).map(|(numbered, _)| &numbered.facet)
+    }
+
+    /// As [`nearest`](Self::nearest), of the facets whose distance, squared, is no greater than `most`.
+    pub(crate) fn nearest_within(&self, p: Point, most: f64) -> Option<Nearest> {
+        if self.facets.is_empty() {
+            return None;
+        }
+        let Closest { place, index, point, .. } = self.nearest_from(self.all.root, NOWHERE, most, p);
+        (place != NOWHERE).then_some(Nearest { facet: index as usize, point })
+    }
+
+    /// Of some facets that with the least distance as it is computed, and of these the first.
+    fn found(&self, part: &Part, p: Point) -> Option<(&Numbered<F>, Point)> {
+        if self.facets.is_empty() {
+            return None;
+        }
+        // Searches that share a place only spoil each other's beginning.
+        let of_part = std::ptr::from_ref(part).addr() / align_of_val(part);
+        let memory = of_part.wrapping_add(self.cube.part(p)) % REMEMBERED;
+        let Range { start, end } = part.leaves;
+        let first = LAST.with(|last| last[memory].get()).clamp(start, end - 1);
+        let best = self.nearest_from(part.root, first, f64::INFINITY, p);
+        LAST.with(|last| last[memory].set(best.leaf));
+        // There is none if no distance can be compared.
+        let place = if best.place == NOWHERE { self.leaves[start as usize] } else { best.place };
+        Some((&self.facets[place as usize], best.point))
+    }
+
+    /// The closest point below `root`, if it is no farther than so much, squared. Looks at the `first` leaf, if there is one,
+    /// before all others.
+    #[inline(never)]
+    fn nearest_from(&self, root: Below, first: u32, most: f64, p: Point) -> Closest {
+        dispatch!(level(), simd => self.nearer(simd, root, first, most, p))
+    }
+
+    #[inline(always)]
+    fn nearer<S: Simd>(&self, simd: S, root: Below, first: u32, most: f64, p: Point) -> Closest {
+        let rounding = ROUNDING * (self.extent + p.abs().max_element());
+        let mut best = Closest { distance: most, place: NOWHERE, index: NOWHERE, leaf: 0, point: p };
+        let mut limit = self.cube.limit(best.limit(rounding));
+        let at = self.cube.place(simd, p);
+        let mut waiting = [0; WAITING];
+        waiting[0] = root.at(0.0);
+        let mut count = 1;
+        if first != NOWHERE {
+            // Above the root alone, by which it is told from the same leaf found again.
+            waiting[1] = Below::leaf(first as usize).at(0.0);
+            count = 2;
+        }
+        while count > 0 {
+            count -= 1;
+            let next: u64 = waiting[count];
+            if f32::from_bits((next >> 32) as u32) > limit {
+                continue;
+            }
+            let place = next as u32 / 2;
+            if next.is_multiple_of(2) {
+                let Branch { boxes, below } = &self.branches[place as usize];
+                let (distances, mut found) = boxes.within(simd, &at, limit);
+                let lowest = count;
+                while found != 0 {
+                    let lane = found.trailing_zeros() as usize % SINGLES;
+                    found &= found - 1;
+                    let box_at = below[lane].at(distances[lane]);
+                    // The nearest last, which is looked at next.
+                    let mut place = count;
+                    while place > lowest && waiting[place - 1] < box_at {
+                        waiting[place] = waiting[place - 1];
+                        place -= 1;
+                    }
+                    waiting[place] = box_at;
+                    count += 1;
+                }
+            } else if (place != first || count == 1) && self.look_at(simd, place, p, &mut best) {
+                limit = self.cube.limit(best.limit(rounding));
+            }
+        }
+        best
+    }
+
+    /// Takes the best facet of a leaf, if that is better. Was it?
+    #[inline(always)]
+    fn look_at<S: Simd>(&self, simd: S, leaf: u32, p: Point, best: &mut Closest) -> bool {
+        let [start, end] = [self.leaves[leaf as usize], self.leaves[leaf as usize + 1]];
+        let facets = &self.facets[start as usize..end as usize];
+        let (points, squared) = F::closest_of(simd, facets, p);
+        let mut is_better = false;
+        for (lane, numbered) in facets.iter().enumerate().take(LANES) {
+            let (distance, index) = (squared[lane], numbered.index);
+            if distance < best.distance || distance == best.distance && index < best.index {
+                let point = Point::new(points[0][lane], points[1][lane], points[2][lane]);
+                *best = Closest { distance, place: start + lane as u32, index, leaf, point };
+                is_better = true;
+            }
+        }
+        is_better
+    }
+
+    /// The point of a facet that is closest to `p`; `None` if there are no facets.
+    pub(crate) fn closest_point(&self, p: Point) -> Option<Point> {
+        self.nearest(p).map(|nearest| nearest.point)
+    }
+}
+
+#[cfg(test)]
+mod tests;
