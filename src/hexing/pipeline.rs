@@ -10,6 +10,8 @@
 //! **Promises.** The mesh conforms, its boundary is a 2-manifold, every hex has a positive Jacobian, at its corners and
 //! inside. What of the solid it does not show is reported with its place.
 
+use std::borrow::Borrow;
+
 use super::background::check_size;
 use super::body::{Best, Body, mesh_body};
 use super::ground::coarsest;
@@ -18,7 +20,7 @@ use super::options::{HexingError, HexingOptions, validate};
 use super::report::{BodyReport, HexingReport, LostFeature, ResultReport};
 use super::second_order::SecondOrderBodies;
 use crate::mesh::{HexMesh, NodeId, PolygonMesh, SecondOrder, SecondOrderHex};
-use crate::solid::{CurveId, SolidModel, SurfaceId};
+use crate::solid::{CurveId, SolidModel, SolidReport, SurfaceId};
 use crate::{Cancelled, Monitor, Stage};
 
 /// A mesh of a solid.
@@ -46,7 +48,8 @@ impl HexedSolid {
 /// The stage in which the surface becomes a solid.
 const SOLID: Stage = Stage("solid");
 
-/// Fills the solid that a closed surface bounds with hexes.
+/// Fills the solid that a closed surface bounds with hexes. A surface that is handed over is freed as soon as the solid is
+/// known.
 ///
 /// # Errors
 /// See [`HexingError`]; nothing is returned in part.
@@ -64,24 +67,35 @@ const SOLID: Stage = Stage("solid");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn hex_solid(
-    surface: &PolygonMesh,
+    surface: impl Borrow<PolygonMesh>,
     options: &HexingOptions,
     monitor: &dyn Monitor,
 ) -> Result<HexedSolid, HexingError> {
     validate(options)?;
-    let (solid, found) = SolidModel::new(surface, &options.solid(), monitor)?;
-    check_size(&solid, coarsest(options), options.max_hexes)?;
+    let (solid, found) = SolidModel::new(surface.borrow(), &options.solid(), monitor)?;
+    drop(surface);
+    hexed(&solid, found, options, monitor)
+}
+
+/// As [`hex_solid`], with the solid and what was found of it.
+fn hexed(
+    solid: &SolidModel,
+    found: SolidReport,
+    options: &HexingOptions,
+    monitor: &dyn Monitor,
+) -> Result<HexedSolid, HexingError> {
+    check_size(solid, coarsest(options), options.max_hexes)?;
     let mut whole = Whole::new(options.second_order);
     if solid.body_count() == 1 {
         let all = |count: usize| 0..count as u32;
         let (curves, surfaces) = (all(solid.curves().len()), all(solid.surfaces().len()));
         let ids = (curves.map(CurveId).collect(), surfaces.map(SurfaceId).collect());
-        whole.add(0, &solid, ids, mesh_body(&solid, options, monitor)?, monitor)?;
+        whole.add(0, solid, ids, mesh_body(solid, options, monitor)?, monitor)?;
     } else {
         for body in 0..solid.body_count() as u32 {
             monitor.checkpoint(SOLID, 1.0)?;
             let alone = solid.body(body, monitor)?;
-            whole.add(body, &alone, ids_of(&solid, body), mesh_body(&alone, options, monitor)?, monitor)?;
+            whole.add(body, &alone, ids_of(solid, body), mesh_body(&alone, options, monitor)?, monitor)?;
         }
     }
     let Whole { mut mesh, faces, body_of, bodies, result, second_order } = whole;

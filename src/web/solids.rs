@@ -99,7 +99,7 @@ impl HexedSolid {
 #[wasm_bindgen(js_name = meshSolid)]
 pub fn mesh(surface: &Surface, options: JsValue) -> Result<HexedSolid, Failure> {
     let affordable = Affordable::<HexingOptions>::read(options)?;
-    let hexed = on_pool(|| hex_solid(&surface.mesh, &affordable.options, &Listener))
+    let hexed = on_pool(|| hex_solid(&*surface.mesh, &affordable.options, &Listener))
         .map_err(|error| affordable.failure(error))?;
     Ok(HexedSolid { hexed })
 }

@@ -37,8 +37,7 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
     })?;
     let before = Counts::of_polygons(&surface);
     let HexedSolid { mesh, second_order, report: work, .. } =
-        hex_solid(&surface, &options, &progress).map_err(|error| refused(&args.input, &error))?;
-    drop(surface);
+        hex_solid(surface, &options, &progress).map_err(|error| refused(&args.input, &error))?;
 
     let document = Document { second_order, ..Document::from(mesh) };
     let made = Made { command: "hex", input: (&loaded, before), document: &document, capped: 0 };
