@@ -33,7 +33,7 @@ pub struct SolidModel {
     surfaces: Vec<Surface>,
     is_free_form: bool,
     bounds: Aabb,
-    by_surface: TriangleSearch,
+    search: TriangleSearch,
     by_curve: Vec<CurveSearch>,
 }
 
@@ -100,7 +100,7 @@ impl SolidModel {
         let points_of =
             |c: &Curve| c.vertices.iter().map(|&v| shell.mesh.points[v as usize]).collect::<Vec<_>>();
         Ok(Self {
-            by_surface: TriangleSearch::new(shell, surfaces.iter().map(|s| &*s.triangles), monitor)?,
+            search: TriangleSearch::new(shell, surfaces.iter().map(|s| &*s.triangles), monitor)?,
             by_curve: parallel::try_collect(curves.len(), monitor, |c| {
                 CurveSearch::new(points_of(&curves[c]))
             })?,
@@ -245,13 +245,13 @@ impl SolidModel {
 
     /// The point of the boundary nearest to `p`.
     pub fn nearest(&self, p: Point) -> Foot {
-        let found = self.by_surface.nearest(p);
+        let found = self.search.nearest(p);
         self.foot(p, found.facet, found.point)
     }
 
     /// The point of a surface nearest to `p`.
     pub fn nearest_on_surface(&self, s: SurfaceId, p: Point) -> Foot {
-        let found = self.by_surface.nearest_of(s.index(), p);
+        let found = self.search.nearest_of(s.index(), p);
         self.foot(p, found.facet, found.point)
     }
 
@@ -272,7 +272,7 @@ impl SolidModel {
 
     /// How far `p` is from the boundary; negative inside.
     pub fn signed_distance(&self, p: Point) -> f64 {
-        let found = self.by_surface.nearest(p);
+        let found = self.search.nearest(p);
         self.sides.signed(&self.parts.shell, &self.normals, found.facet, found.point, p)
     }
 

@@ -17,8 +17,9 @@ use super::boxes::{Boxes, Cube};
 use super::closest::closest_on_four;
 use super::lanes::{LANES, Row, Rows, SINGLES, Vectors, level};
 
-/// More boxes than ever wait: seven a level, of which 2^31 facets have no more than 11.
-const WAITING: usize = 96;
+/// More boxes than ever wait: seven a level, of which 2^31 facets have no more than 11 below the root of a group, and their
+/// groups no more than 11 above.
+const WAITING: usize = 160;
 
 /// How many searches a thread remembers, at most.
 const REMEMBERED: usize = 1 << 13;

@@ -103,7 +103,7 @@ impl Boundary {
     /// Step 8, if all coordinates are finite.
     fn hanging(self, mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
         let Self { faces, has } = self;
-        if mesh.positions.iter().any(|p| !p.is_finite()) {
+        if !not_finite(&mesh.positions).is_empty() {
             return Ok(Vec::new());
         }
         let mut edges: Vec<[NodeId; 2]> = faces.iter().flat_map(|(_, face)| edges_around(face)).collect();

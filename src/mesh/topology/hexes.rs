@@ -138,7 +138,7 @@ fn numbered<const N: usize, const PARTS: usize, Id>(
     id: impl Fn(u32) -> Id,
     monitor: &dyn Monitor,
 ) -> Result<Numbered<N, PARTS, Id>, Cancelled> {
-    // Three for each hex inside, and more on the boundary.
+    // Three for each hex inside and more on the boundary: seldom more than three and a half.
     let mut sets = NodeSets::new(node_count, hexes.as_flattened(), 7 * hexes.len() / 2);
     let mut of_hex = Vec::with_capacity(hexes.len());
     for batch in batches(hexes.len(), monitor) {
