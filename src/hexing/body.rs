@@ -230,6 +230,7 @@ mod tests {
     use super::super::attempt::draft;
     use super::super::merit::distance;
     use super::super::report::AttemptReport;
+    use super::super::search::Waiting;
     use super::*;
     use crate::Silent;
     use crate::geometry::Point;
@@ -298,10 +299,11 @@ mod tests {
     fn with_draft<'a>(site: &'a Site<'a>, euler: i64) -> Search<'a> {
         let (mut search, plan) = (Search::new(site, &Silent), site.plan(Background::Grid));
         let background = site.background(&plan, u64::MAX, &Silent).unwrap();
-        let mut report = draft(site, &plan, background, None, &Silent).unwrap().ok().unwrap().report;
+        let draft = draft(site, &plan, background, None, &Silent).unwrap().ok();
+        let mut report = draft.as_ref().unwrap().report.clone();
         report.core.euler = euler;
         search.attempts.push(report);
-        search.waiting.push((0, plan.clone()));
+        search.waiting.push(Waiting { number: 0, plan: plan.clone(), draft });
         search.best = Some(Attempt { meshed: None, failures: Vec::new(), number: 0, plan });
         search
     }
@@ -320,6 +322,36 @@ mod tests {
         assert!(!other.waits() && !other.is_good());
         other.settle().unwrap();
         assert!(other.waiting.is_empty() && other.is_good() && other.attempts.len() == 1);
+    }
+
+    #[test]
+    fn a_draft_is_fitted_alike_be_it_kept_or_made_again() {
+        let solid = solid(&voxels([4, 4, 4], |[x, y, z]| x + y + z < 9));
+        let options = HexingOptions { edge_length: 0.7, ..HexingOptions::default() };
+        let site = Site::new(&solid, &options, &Silent).unwrap();
+        let fitted = |is_kept: bool| {
+            let mut search = with_draft(&site, 2);
+            search.waiting[0].draft.take_if(|_| !is_kept);
+            search.fit_best().unwrap();
+            let best = search.best.unwrap();
+            (search.attempts, best.meshed.unwrap().mesh, best.failures)
+        };
+        assert_eq!(fitted(true), fitted(false));
+    }
+
+    #[test]
+    fn of_the_drafts_that_wait_only_the_last_is_kept() {
+        let pegs = voxels([13, 13, 4], |[x, y, z]| z < 3 || x % 4 == 2 && y % 4 == 2);
+        let solid = solid(&pegs);
+        let options = HexingOptions { edge_length: 2.4, ..HexingOptions::default() };
+        let site = Site::new(&solid, &options, &Silent).unwrap();
+        let mut search = Search::new(&site, &Silent);
+        search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
+        // The same again, as though it lost half of what the first did.
+        search.attempts[0].features.as_mut().map(|f| f.suppressed.extend(f.suppressed.clone())).unwrap();
+        search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
+        let kept: Vec<bool> = search.waiting.iter().map(|waiting| waiting.draft.is_some()).collect();
+        assert_eq!((kept, search.number()), (vec![false, true], Some(1)));
     }
 
     /// It is tried whatever comes of the fit.

@@ -18,8 +18,8 @@ pub(super) struct Search<'a> {
     pub(super) attempts: Vec<AttemptReport>,
     pub(super) refused: Vec<RefusedAttempt>,
     pub(super) best: Option<Attempt>,
-    /// Drafts that wait, by their places among the attempts: each is at least about as good as those before.
-    pub(super) waiting: Vec<(usize, Plan)>,
+    /// Drafts that wait: each is at least about as good as those before.
+    pub(super) waiting: Vec<Waiting>,
     /// Hexes that were inverted in an attempt that gave no mesh.
     pub(super) tangled: Option<usize>,
     pub(super) monitor: &'a dyn Monitor,
@@ -34,6 +34,15 @@ pub(super) struct Attempt {
     /// Its place among the attempts.
     pub(super) number: usize,
     pub(super) plan: Plan,
+}
+
+/// A draft that waits.
+pub(super) struct Waiting {
+    /// Its place among the attempts.
+    pub(super) number: usize,
+    pub(super) plan: Plan,
+    /// Only the last one is kept, which is fitted first: the others are made again.
+    pub(super) draft: Option<Draft>,
 }
 
 impl<'a> Search<'a> {
@@ -52,9 +61,8 @@ impl<'a> Search<'a> {
     /// Makes an attempt; keeps it if it is better than the best so far. A draft of another kind than the solid waits, as does
     /// one that loses so much that smaller cells are tried first.
     pub(super) fn attempt(&mut self, plan: Plan, max_hexes: u64) -> Result<(), HexingError> {
-        let background = self.site.background(&plan, max_hexes, self.monitor)?;
         let number = self.attempts.len();
-        let draft = match draft(self.site, &plan, background, self.bar(), self.monitor)? {
+        let draft = match self.draft(&plan, max_hexes, self.bar())? {
             Ok(draft) => draft,
             Err(report) => {
                 self.attempts.push(report);
@@ -69,10 +77,13 @@ impl<'a> Search<'a> {
         if is_of_kind && !loses_much {
             return self.fit(draft, plan, number);
         }
-        self.waiting.push((number, plan.clone()));
         if self.best_report().is_none_or(|best| shows_more(&draft.report, best)) {
-            self.best = Some(Attempt { meshed: None, failures, number, plan });
+            self.best = Some(Attempt { meshed: None, failures, number, plan: plan.clone() });
         }
+        if let Some(last) = self.waiting.last_mut() {
+            last.draft = None;
+        }
+        self.waiting.push(Waiting { number, plan, draft: Some(draft) });
         Ok(())
     }
 
@@ -113,11 +124,11 @@ impl<'a> Search<'a> {
     pub(super) fn settle(&mut self) -> Result<(), HexingError> {
         self.best = self.best.take().filter(|best| best.meshed.is_some());
         while !self.is_good()
-            && let Some((number, plan)) = self.waiting.pop()
+            && let Some(waiting) = self.waiting.pop()
         {
             let off = |report: &AttemptReport| off_euler(&report.core);
-            if self.best_report().is_none_or(|best| off(&self.attempts[number]) <= off(best)) {
-                self.fit_anew(plan, number)?;
+            if self.best_report().is_none_or(|best| off(&self.attempts[waiting.number]) <= off(best)) {
+                self.fit_waiting(waiting)?;
             }
         }
         Ok(())
@@ -126,19 +137,31 @@ impl<'a> Search<'a> {
     /// Fits the best attempt, a draft that waits.
     pub(super) fn fit_best(&mut self) -> Result<(), HexingError> {
         self.best = None;
-        match self.waiting.pop() {
-            Some((number, plan)) => self.fit_anew(plan, number),
-            None => Ok(()),
-        }
+        self.waiting.pop().map_or(Ok(()), |waiting| self.fit_waiting(waiting))
     }
 
-    /// Makes a draft again and fits it.
-    fn fit_anew(&mut self, plan: Plan, number: usize) -> Result<(), HexingError> {
-        let background = self.site.background(&plan, self.site.options.max_hexes, self.monitor)?;
-        match draft(self.site, &plan, background, None, self.monitor)? {
+    /// Fits a draft that waited, or if it is not kept any more, the same made again.
+    fn fit_waiting(&mut self, waiting: Waiting) -> Result<(), HexingError> {
+        let Waiting { number, plan, draft } = waiting;
+        let made = match draft {
+            Some(draft) => Ok(draft),
+            None => self.draft(&plan, self.site.options.max_hexes, None)?,
+        };
+        match made {
             Ok(draft) => self.fit(draft, plan, number),
             Err(_) => Ok(()),
         }
+    }
+
+    /// Makes a draft, unless it turns out not to reach the `bar`.
+    fn draft(
+        &self,
+        plan: &Plan,
+        max_hexes: u64,
+        bar: Option<Bar>,
+    ) -> Result<Result<Draft, AttemptReport>, HexingError> {
+        let background = self.site.background(plan, max_hexes, self.monitor)?;
+        draft(self.site, plan, background, bar, self.monitor)
     }
 
     /// Makes an attempt more, if its background has no more than `limit` hexes. False if there is no such background, which
