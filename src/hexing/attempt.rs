@@ -12,7 +12,6 @@ use super::report::{AttemptReport, FeatureReport, FitCounts, MeshedReport, Sheet
 use super::separate::separate;
 use super::sheets::insert_sheets;
 use crate::geometry::Point;
-use crate::mesh::topology::hex_boundary;
 use crate::mesh::{Distances, HexMesh, NodeId, Triangles};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
@@ -48,12 +47,12 @@ impl Meshed {
     ) -> Result<(), Cancelled> {
         let Self { mesh, on, fitted, .. } = self;
         fitted.finish(mesh, on, solid, monitor)?;
-        let drawn_in = separate(mesh, monitor)?;
+        let drawn_in = separate(mesh, &on.faces, monitor)?;
         report.fit = FitCounts::new(&fitted.report, drawn_in);
         let (worst, mean) = quality(mesh);
         (report.worst, report.mean) = (worst.unwrap_or_default(), mean);
         let rest = Part { whole: monitor, stage: FINISHING, range: [FINISHED, 1.0] };
-        (report.distance, _) = distances(mesh, solid, f64::INFINITY, &rest)?;
+        (report.distance, _) = distances(mesh, on, solid, f64::INFINITY, &rest)?;
         Ok(())
     }
 }
@@ -125,7 +124,7 @@ impl Draft {
             return Err(HexingError::Tangled(fitted.report.inverted.len()));
         }
         let look = |mesh: &HexMesh| -> Result<(Distances, Vec<Failure>), Cancelled> {
-            let (distance, far) = distances(mesh, solid, near, monitor)?;
+            let (distance, far) = distances(mesh, &on, solid, near, monitor)?;
             Ok((distance, misses(site, kind, &core, &on.reduction, far, &cells)))
         };
         let (mut distance, mut failures) = look(&mesh)?;
@@ -183,21 +182,22 @@ fn levels_of(background: &OctreeMesh) -> Vec<usize> {
 /// How far the boundaries of a mesh and a solid are from each other, and the places where that is more than the limit.
 fn distances(
     mesh: &HexMesh,
+    on: &Correspondence,
     solid: &SolidModel,
     limit: f64,
     monitor: &dyn Monitor,
 ) -> Result<(Distances, Vec<Point>), Cancelled> {
-    let triangles = boundary_triangles(mesh);
+    let triangles = boundary_triangles(on);
     let boundary = Triangles { positions: &mesh.positions, triangles: &triangles };
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
     Distances::with_samples_beyond(limit, boundary, surface, monitor)
 }
 
 /// The boundary of a mesh: two triangles for each quad.
-fn boundary_triangles(mesh: &HexMesh) -> Vec<[u32; 3]> {
+fn boundary_triangles(on: &Correspondence) -> Vec<[u32; 3]> {
     let halves = |quad: [NodeId; 4]| {
         let [a, b, c, d] = quad.map(|n| n.0);
         [[a, b, c], [a, c, d]]
     };
-    hex_boundary(&mesh.hexes).into_iter().flat_map(|(quad, _)| halves(quad)).collect()
+    on.faces.iter().flat_map(|&(quad, _)| halves(quad)).collect()
 }

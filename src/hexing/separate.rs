@@ -6,8 +6,9 @@
 
 use crate::geometry::{Aabb, BoxIndex, Point};
 use crate::mesh::quality::{Certainty, is_positive, scaled_jacobian};
-use crate::mesh::topology::{Bins, hex_boundary};
+use crate::mesh::topology::Bins;
 use crate::mesh::{Defect, HexMesh, NodeId, check_hexes_within};
+use crate::solid::SurfaceId;
 use crate::{Cancelled, Monitor, parallel};
 
 /// How far a node is drawn in at a time, as a share of the way to the middle of its hexes.
@@ -25,15 +26,22 @@ const KEPT: f64 = 0.5;
 /// Two nodes nearer than this share of the mesh's size are one to whoever reads the file.
 const SAME: f64 = 1e-9;
 
-/// Draws in what lies on other parts of the boundary. Returns how many nodes were moved.
+/// Draws in what lies on other parts of the boundary, of which these are all faces. Returns how many nodes were moved.
 ///
 /// # Errors
 /// [`Cancelled`] when the monitor says so.
-pub(super) fn separate(mesh: &mut HexMesh, monitor: &dyn Monitor) -> Result<usize, Cancelled> {
+pub(super) fn separate(
+    mesh: &mut HexMesh,
+    faces: &[([NodeId; 4], SurfaceId)],
+    monitor: &dyn Monitor,
+) -> Result<usize, Cancelled> {
     let mut moved = vec![false; mesh.positions.len()];
+    let mut boundary: Vec<NodeId> = faces.iter().flat_map(|&(quad, _)| quad).collect();
+    boundary.sort_unstable();
+    boundary.dedup();
     let mut hexes_at: Option<Bins> = None;
     for _ in 0..ROUNDS {
-        let mut nodes = coincident(mesh);
+        let mut nodes = coincident(mesh, &boundary);
         nodes.extend(check_hexes_within(mesh, monitor)?.iter().filter_map(hanging));
         nodes.sort_unstable();
         nodes.dedup();
@@ -59,11 +67,8 @@ fn hanging(defect: &Defect) -> Option<NodeId> {
     }
 }
 
-/// Nodes of the boundary that stand where another does, of which the first stays.
-fn coincident(mesh: &HexMesh) -> Vec<NodeId> {
-    let mut nodes: Vec<NodeId> = hex_boundary(&mesh.hexes).into_iter().flat_map(|(quad, _)| quad).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
+/// Of these nodes, which ascend, those that stand where another does, of which the first stays.
+fn coincident(mesh: &HexMesh, nodes: &[NodeId]) -> Vec<NodeId> {
     let at = |n: NodeId| mesh.positions[n.index()];
     let bounds = mesh.bounds();
     let near = Point::splat(SAME * (bounds.max - bounds.min).max_element());
@@ -101,7 +106,14 @@ fn draw_in(mesh: &mut HexMesh, node: NodeId, hexes: &[usize]) -> bool {
 mod tests {
     use super::*;
     use crate::Silent;
+    use crate::mesh::topology::hex_boundary;
     use crate::mesh::{GridOptions, check_hexes, hex_grid};
+
+    fn separated(mesh: &mut HexMesh) -> usize {
+        let faces: Vec<_> =
+            hex_boundary(&mesh.hexes).into_iter().map(|(quad, _)| (quad, SurfaceId(0))).collect();
+        separate(mesh, &faces, &Silent).unwrap()
+    }
 
     /// Two boxes of 2 x 2 x 2 cells, `gap` apart along x.
     fn boxes(gap: f64) -> HexMesh {
@@ -121,7 +133,7 @@ mod tests {
     fn what_touches_is_drawn_apart() {
         let mut mesh = boxes(0.0);
         assert!(check_hexes(&mesh).iter().any(|defect| hanging(defect).is_some()));
-        let moved = separate(&mut mesh, &Silent).unwrap();
+        let moved = separated(&mut mesh);
         assert!(moved > 0 && moved <= 18, "{moved}");
         assert_eq!(check_hexes(&mesh), []);
     }
@@ -130,7 +142,7 @@ mod tests {
     fn what_stands_apart_stays() {
         let mut mesh = boxes(0.01);
         let before = mesh.clone();
-        assert_eq!(separate(&mut mesh, &Silent), Ok(0));
+        assert_eq!(separated(&mut mesh), 0);
         assert_eq!(mesh, before);
     }
 }

@@ -258,6 +258,44 @@ pub fn try_for_each_mut<T: Send>(
     })
 }
 
+/// Ranges of the numbers below `count`, in order, one for each thread: for work that looks at `len` things in every range, and
+/// of which hardly more comes of the others. There is one range alone where these are few.
+pub fn shares(count: usize, len: usize) -> Vec<Range<usize>> {
+    const FEW: usize = 1 << 15;
+    let shares = if len < FEW { 1 } else { thread_count().clamp(1, count.max(1)) };
+    (0..shares).map(|k| count * k / shares..count * (k + 1) / shares).collect()
+}
+
+/// The items in these ranges, which are next to each other, from the first item on.
+///
+/// # Panics
+/// If they are not.
+pub fn split<'a, T>(items: &'a mut [T], ranges: &[Range<usize>]) -> Vec<&'a mut [T]> {
+    let (mut start, mut rest) = (0, items);
+    let mut parts = Vec::with_capacity(ranges.len());
+    for range in ranges {
+        assert_eq!(range.start, start, "ranges next to each other");
+        let (part, behind) = rest.split_at_mut(range.len());
+        parts.push(part);
+        (start, rest) = (range.end, behind);
+    }
+    parts
+}
+
+/// Calls `work` for each of a few parts of what is to be done, which may stop.
+///
+/// # Errors
+/// If the monitor stops it, or `work` does.
+pub fn try_each_part<T: Send>(
+    parts: Vec<T>,
+    monitor: &dyn Monitor,
+    work: impl Fn(&mut T) -> Result<(), Cancelled> + Sync,
+) -> Result<(), Cancelled> {
+    let mut parts: Vec<(T, Result<(), Cancelled>)> = parts.into_iter().map(|part| (part, Ok(()))).collect();
+    try_for_each_mut(&mut parts, monitor, |_, (part, done)| *done = work(part))?;
+    parts.into_iter().try_for_each(|(_, done)| done)
+}
+
 /// What `make` gives for each block of `size` numbers below `count`, the last of which may be shorter. What is summed by
 /// blocks, and then in their order, is the same to the last bit for any number of threads.
 pub fn blocks<T: Send>(count: usize, size: usize, make: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {

@@ -218,3 +218,33 @@ fn parts_are_moved_and_dropped_once() {
         assert_eq!(Arc::strong_count(&life), 1);
     });
 }
+
+#[test]
+fn shares_are_all_numbers_in_order() {
+    on_pools(|| {
+        for (count, len) in [(0, 0), (0, 100_000), (1, 100_000), (2, 100_000), (100, 100), (100, 100_000)] {
+            let shares = shares(count, len);
+            let expected = if len < 1000 { 1 } else { thread_count().min(count.max(1)) };
+            assert_eq!(shares.len(), expected);
+            let mut items: Vec<usize> = (0..count).collect();
+            let parts = split(&mut items, &shares);
+            assert!(parts.iter().zip(&shares).all(|(part, share)| part.iter().copied().eq(share.clone())));
+            assert_eq!(parts.iter().map(|part| part.len()).sum::<usize>(), count);
+        }
+    });
+}
+
+#[test]
+fn what_one_part_cannot_end_is_told() {
+    on_pools(|| {
+        let done = AtomicUsize::new(0);
+        let work = |&mut part: &mut usize| {
+            done.fetch_add(part, Relaxed);
+            if part == 2 { Err(Cancelled) } else { Ok(()) }
+        };
+        assert_eq!(try_each_part(vec![1, 3, 4], &Silent, work), Ok(()));
+        assert_eq!(try_each_part(vec![1, 2, 3], &Silent, work), Err(Cancelled));
+        assert_eq!(try_each_part(Vec::new(), &Silent, work), Ok(()));
+        assert_eq!(done.into_inner(), 8 + 6);
+    });
+}

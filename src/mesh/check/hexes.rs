@@ -14,7 +14,7 @@
 
 use super::{Defect, hanging, not_finite, repeated_node};
 use crate::mesh::orientation::inverted_corners;
-use crate::mesh::topology::{Bins, HexFaces, HexTopology, NodeSets, Side, hex_of, side_nodes};
+use crate::mesh::topology::{Bins, HexFaces, HexTopology, NodeSets, Side, degrees, hex_of, side_nodes};
 use crate::mesh::{EdgeId, FaceId, HexId, HexMesh, NodeId};
 use crate::monitor::batches;
 use crate::{Cancelled, Monitor, Silent, parallel};
@@ -152,7 +152,8 @@ fn shape(mesh: &HexMesh, h: usize) -> Option<Defect> {
 
 /// Step 4.
 fn same_hexes(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
-    let mut sets = NodeSets::new(mesh.positions.len(), mesh.hexes.as_flattened(), mesh.hexes.len());
+    let degrees = degrees(mesh.positions.len(), mesh.hexes.as_flattened());
+    let mut sets = NodeSets::new(&degrees, mesh.hexes.len());
     let mut first_of_set = Vec::with_capacity(mesh.hexes.len());
     let mut defects = Vec::new();
     for batch in batches(mesh.hexes.len(), monitor) {

@@ -1,6 +1,6 @@
 //! The unique edges of a surface.
 
-use super::NodeSets;
+use super::{NodeSets, degrees};
 use crate::mesh::{EdgeId, Faces, NodeId, PolygonMesh, QuadMesh};
 use crate::monitor::batches;
 use crate::{Cancelled, Monitor, Silent};
@@ -60,7 +60,8 @@ impl Edges {
     pub fn monitored(mesh: &impl Faces, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let corners = mesh.corners();
         // A closed surface has two corners an edge.
-        let mut sets = NodeSets::new(mesh.node_count(), corners, corners.len() / 2);
+        let degrees = degrees(mesh.node_count(), corners);
+        let mut sets = NodeSets::new(&degrees, corners.len() / 2);
         let mut of_corner = Vec::with_capacity(corners.len());
         for batch in batches(mesh.face_count(), monitor) {
             for f in batch? {

@@ -1,10 +1,13 @@
 //! The unique faces and edges of a hex mesh.
 
-use super::{Bins, NodeSets};
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+use super::{Bins, NodeSets, degrees};
 use crate::mesh::numbering::hex::{EDGES, FACES};
 use crate::mesh::{EdgeId, FaceId, HexId, NodeId};
 use crate::monitor::batches;
-use crate::{Cancelled, Monitor, Silent};
+use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// A side: face `k` of hex `h`, in the order of [`FACES`], as `6 * h + k`.
 pub type Side = u32;
@@ -131,15 +134,21 @@ pub fn hex_boundary(hexes: &[[NodeId; 8]]) -> Vec<([NodeId; 4], HexId)> {
 type Numbered<const N: usize, const PARTS: usize, Id> = (Vec<[NodeId; N]>, Vec<[Id; PARTS]>);
 
 /// Numbers the parts of the hexes: each hex has one for each row of `table`.
-fn numbered<const N: usize, const PARTS: usize, Id>(
+fn numbered<const N: usize, const PARTS: usize, Id: Send>(
     node_count: usize,
     hexes: &[[NodeId; 8]],
     table: [[u8; N]; PARTS],
-    id: impl Fn(u32) -> Id,
+    id: impl Fn(u32) -> Id + Sync,
     monitor: &dyn Monitor,
 ) -> Result<Numbered<N, PARTS, Id>, Cancelled> {
     // Three for each hex inside and more on the boundary: seldom more than three and a half.
-    let mut sets = NodeSets::new(node_count, hexes.as_flattened(), 7 * hexes.len() / 2);
+    let expected = 7 * hexes.len() / 2;
+    let degrees = degrees(node_count, hexes.as_flattened());
+    let shares = parallel::shares(node_count, PARTS * hexes.len());
+    if shares.len() > 1 {
+        return numbered_in_shares((&degrees, expected, shares), hexes, table, id, monitor);
+    }
+    let mut sets = NodeSets::new(&degrees, expected);
     let mut of_hex = Vec::with_capacity(hexes.len());
     for batch in batches(hexes.len(), monitor) {
         let parts = |hex: &[NodeId; 8]| table.map(|local| id(sets.number(corners(hex, local))));
@@ -148,7 +157,106 @@ fn numbered<const N: usize, const PARTS: usize, Id>(
     Ok((sets.into_nodes(), of_hex))
 }
 
+/// The same by many threads, each of which finds those that a share of the nodes own. A use is `PARTS` times a hex, and the
+/// row of the table there; the number of a part is the place of its first use among all such.
+fn numbered_in_shares<const N: usize, const PARTS: usize, Id: Send>(
+    (degrees, expected, shares): (&[u32], usize, Vec<Range<usize>>),
+    hexes: &[[NodeId; 8]],
+    table: [[u8; N]; PARTS],
+    id: impl Fn(u32) -> Id + Sync,
+    monitor: &dyn Monitor,
+) -> Result<Numbered<N, PARTS, Id>, Cancelled> {
+    /// Is set with the first use of a part in all others.
+    const LATER: u32 = 1 << 31;
+    let uses = PARTS * hexes.len();
+    assert!(uses <= LATER as usize, "no more than 2^31 uses");
+    let number: Vec<AtomicU32> = parallel::try_collect(uses, monitor, |_| AtomicU32::new(0))?;
+    let expected = expected / shares.len();
+    parallel::try_each_part(shares, monitor, |share| {
+        let mut sets = NodeSets::of_owners(degrees, share.clone(), expected);
+        let mut first: Vec<u32> = Vec::with_capacity(expected);
+        for batch in batches(hexes.len(), monitor) {
+            for h in batch? {
+                for (k, local) in table.into_iter().enumerate() {
+                    let part = PARTS * h + k;
+                    match sets.number_if_owned(corners(&hexes[h], local)).map(|set| first.get(set as usize)) {
+                        Some(Some(first)) => number[part].store(LATER | first, Relaxed),
+                        Some(None) => first.push(part as u32),
+                        None => {}
+                    }
+                }
+            }
+        }
+        Ok(())
+    })?;
+    let first = parallel::try_filter(uses, monitor, |part| number[part].load(Relaxed) < LATER)?;
+    parallel::for_each(first.len(), |k| number[first[k] as usize].store(k as u32, Relaxed));
+    let part = |part: u32| corners(&hexes[part as usize / PARTS], table[part as usize % PARTS]);
+    let nodes = parallel::try_collect(first.len(), monitor, |k| part(first[k]))?;
+    drop(first);
+    let of_hex = parallel::try_collect(hexes.len(), monitor, |h| {
+        std::array::from_fn(|k| match number[PARTS * h + k].load(Relaxed) {
+            later if later >= LATER => id(number[(later - LATER) as usize].load(Relaxed)),
+            number => id(number),
+        })
+    })?;
+    Ok((nodes, of_hex))
+}
+
 /// Some corners of a hex.
 fn corners<const N: usize>(hex: &[NodeId; 8], local: [u8; N]) -> [NodeId; N] {
     local.map(|k| hex[usize::from(k)])
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::geometry::{Aabb, Point};
+    use crate::mesh::{GridOptions, hex_grid};
+
+    /// The numbers that a walk gives, by the obvious means.
+    fn walked<const N: usize, const PARTS: usize>(
+        hexes: &[[NodeId; 8]],
+        table: [[u8; N]; PARTS],
+    ) -> (Vec<[NodeId; N]>, Vec<[u32; PARTS]>) {
+        let (mut nodes, mut numbers) = (Vec::new(), BTreeMap::new());
+        let mut number = |hex: &[NodeId; 8], local: [u8; N]| {
+            let part = corners(hex, local);
+            let mut set = part;
+            set.sort_unstable();
+            *numbers.entry(set).or_insert_with(|| {
+                nodes.push(part);
+                nodes.len() as u32 - 1
+            })
+        };
+        let of_hex = hexes.iter().map(|hex| table.map(|local| number(hex, local))).collect();
+        (nodes, of_hex)
+    }
+
+    #[test]
+    fn any_number_of_threads_numbers_as_a_walk_does() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 100_000 };
+        let mut mesh = hex_grid(Aabb { min: Point::ZERO, max: Point::splat(20.0) }, &options).unwrap();
+        // Far apart what is beside each other, and one hex twice.
+        mesh.hexes.sort_unstable_by_key(|hex| hex[0].0.wrapping_mul(2_654_435_761));
+        mesh.hexes.push(mesh.hexes[77]);
+        let (count, hexes) = (mesh.positions.len(), mesh.hexes.as_slice());
+        let (nodes, of_hex) = walked(hexes, FACES);
+        let (ends, edges_of_hex) = walked(hexes, EDGES);
+        let mut sides = vec![Vec::new(); nodes.len()];
+        (0u32..).zip(of_hex.as_flattened()).for_each(|(side, &face)| sides[face as usize].push(side));
+        for threads in [1, 2, 3, 7] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                assert_eq!(parallel::shares(count, 6 * hexes.len()).len(), threads);
+                let (faces, edges) = (HexFaces::of(count, hexes), HexEdges::of(count, hexes));
+                assert!(faces.nodes == nodes && edges.ends == ends, "{threads}");
+                assert!(faces.of_hex.iter().map(|hex| hex.map(|f| f.0)).eq(of_hex.iter().copied()));
+                assert!(edges.of_hex.iter().map(|hex| hex.map(|e| e.0)).eq(edges_of_hex.iter().copied()));
+                assert!(faces.ids().all(|f| faces.sides(f) == sides[f.index()]));
+            });
+        }
+    }
 }

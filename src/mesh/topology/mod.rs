@@ -22,6 +22,6 @@ pub use uses::EdgeUses;
 pub(crate) use bins::Bins;
 pub(crate) use face_sides::FaceSides;
 pub(crate) use links::Links;
-pub(crate) use node_sets::NodeSets;
+pub(crate) use node_sets::{NodeSets, degrees};
 pub(crate) use report::{disagrees, edge_ids, non_manifold_nodes, used_nodes};
 pub(crate) use sets::Sets;
