@@ -218,7 +218,7 @@ pub(crate) fn keep_positive(
     monitor: &dyn Monitor,
     mut round: impl FnMut(&mut Problem, &mut [bool]) -> Result<Moved, Cancelled>,
 ) -> Result<(Vec<u32>, Moved), Cancelled> {
-    let before = (problem.points.clone(), awake.clone());
+    let before = awake.clone();
     loop {
         let moved = round(problem, awake)?;
         let changed = problem.cells_around_within(&moved.nodes, monitor)?;
@@ -233,8 +233,8 @@ pub(crate) fn keep_positive(
             return Ok((changed, moved));
         }
         lost.into_iter().for_each(|cell| problem.guarded[cell] = true);
-        problem.points.clone_from(&before.0);
-        awake.clone_from(&before.1);
+        moved.take_back(problem);
+        awake.clone_from(&before);
     }
 }
 
@@ -332,10 +332,14 @@ mod tests {
         let done = keep_positive(&mut problem, &mut awake, &Silent, |problem, awake| {
             starts.push((problem.points[6], awake[6], problem.guarded[0]));
             awake[6] = false;
-            problem.points[6] = if problem.guarded[0] { Point::splat(0.9) } else { Point::splat(-1.0) };
-            Ok(Moved { nodes: vec![6], far: 1 })
+            let to = if problem.guarded[0] { Point::splat(0.9) } else { Point::splat(-1.0) };
+            let mut moved = Moved::default();
+            moved.take(problem, 6, to);
+            moved.far = 1;
+            Ok(moved)
         });
-        assert_eq!(done, Ok((vec![0], Moved { nodes: vec![6], far: 1 })));
+        let (changed, moved) = done.unwrap();
+        assert_eq!((changed, moved.nodes, moved.far), (vec![0], vec![6], 1));
         assert_eq!(starts, [(Point::ONE, true, false), (Point::ONE, true, true)]);
         assert_eq!(problem.points[6], Point::splat(0.9));
     }

@@ -77,8 +77,7 @@ pub(crate) fn sweep(
                 let is_far = matches!(step, Some(Step { far: true, .. }));
                 awake[node as usize] = is_far && allowed[node as usize];
                 let Some(Step { to, .. }) = step else { continue };
-                problem.points[node as usize] = to;
-                moved.nodes.push(node);
+                moved.take(problem, node, to);
                 moved.far += usize::from(is_far);
             }
         }
@@ -103,11 +102,28 @@ fn parts(problem: &Problem, awake: &[bool]) -> Vec<(usize, Range<usize>)> {
 }
 
 /// What a round did.
-#[derive(Debug, Default, PartialEq, Eq)]
+#[derive(Debug, Default, PartialEq)]
 pub(crate) struct Moved {
     pub(crate) nodes: Vec<u32>,
+    /// Where each of them was.
+    from: Vec<Point>,
     /// How many of the nodes moved so far that it matters to their neighbours.
     pub(crate) far: usize,
+}
+
+impl Moved {
+    /// Takes a node to another place; it was not moved before.
+    pub(crate) fn take(&mut self, problem: &mut Problem, node: u32, to: Point) {
+        self.nodes.push(node);
+        self.from.push(std::mem::replace(&mut problem.points[node as usize], to));
+    }
+
+    /// Takes all of them back.
+    pub(super) fn take_back(self, problem: &mut Problem) {
+        for (node, from) in self.nodes.into_iter().zip(self.from) {
+            problem.points[node as usize] = from;
+        }
+    }
 }
 
 /// Wakes the nodes and those that share a cell with one of them.

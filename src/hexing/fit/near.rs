@@ -211,8 +211,7 @@ impl Places<'_> {
                 })?;
                 for (&node, to) in batch.iter().zip(best) {
                     if let Some(to) = to {
-                        problem.points[node as usize] = to;
-                        moved.nodes.push(node);
+                        moved.take(problem, node, to);
                     }
                 }
             }

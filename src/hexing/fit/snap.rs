@@ -48,12 +48,14 @@ fn round(
 ) -> Result<Moved, Cancelled> {
     let mut moved = Moved::default();
     for colour in 0..problem.colours.len() {
-        let is_drawn = |&n: &u32| {
-            let id = problem.nodes[n as usize];
+        let of_colour = &problem.colours[colour];
+        let drawn = |k: usize| {
+            let id = problem.nodes[of_colour[k] as usize];
             let is_free = holds.anchors[id.index()].freedom() <= freedom;
-            allowed[n as usize] && is_free && holds.is(id, Hold::Drawn)
+            let is_drawn = allowed[of_colour[k] as usize] && is_free && holds.is(id, Hold::Drawn);
+            is_drawn.then_some(of_colour[k])
         };
-        let nodes: Vec<u32> = problem.colours[colour].iter().copied().filter(is_drawn).collect();
+        let nodes = parallel::filter_map(of_colour.len(), drawn);
         for batch in nodes.chunks(BATCH) {
             if monitor.cancelled() {
                 return Err(Cancelled);
@@ -74,8 +76,7 @@ fn round(
             });
             for (&node, to) in batch.iter().zip(feet) {
                 if let Some(to) = to {
-                    problem.points[node as usize] = to;
-                    moved.nodes.push(node);
+                    moved.take(problem, node, to);
                 }
             }
         }
