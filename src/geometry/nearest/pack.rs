@@ -6,13 +6,10 @@ use super::super::boxes::{Boxes, Cube};
 use super::super::lanes::SINGLES;
 use super::super::{Aabb, Point};
 use super::{Below, Branch, Facet, NearestFacet, Numbered, Part};
-use crate::{Cancelled, Monitor, Silent, parallel};
+use crate::{Cancelled, Monitor, Silent};
 
 /// The monitor is asked before more facets than this are split.
 const MANY: usize = 1 << 14;
-
-/// Two threads put the halves of more facets than this in order.
-const FEW: usize = 1 << 11;
 
 impl<F: Facet> NearestFacet<F> {
     /// An index of facets with finite corners.
@@ -167,12 +164,8 @@ fn sort(facets: &mut [Middle], together: usize, monitor: &dyn Monitor) -> Result
         let left = facets.len().div_ceil(full).div_ceil(2) * full;
         facets.select_nth_unstable_by(left, along);
         let (left, right) = facets.split_at_mut(left);
-        let (left, right) = if left.len() > FEW {
-            parallel::join(|| sort(left, together, monitor), || sort(right, together, monitor))
-        } else {
-            (sort(left, together, monitor), sort(right, together, monitor))
-        };
-        left.and(right)?;
+        sort(left, together, monitor)?;
+        sort(right, together, monitor)?;
     }
     Ok(())
 }

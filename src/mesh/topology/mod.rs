@@ -25,3 +25,6 @@ pub(crate) use links::Links;
 pub(crate) use node_sets::{NodeSets, degrees};
 pub(crate) use report::{disagrees, edge_ids, non_manifold_nodes, used_nodes};
 pub(crate) use sets::Sets;
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests;
