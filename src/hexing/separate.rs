@@ -41,9 +41,8 @@ pub(super) fn separate(
     boundary.dedup();
     let mut hexes_at: Option<Bins> = None;
     for _ in 0..ROUNDS {
-        let (mut nodes, defects) =
-            parallel::join(|| coincident(mesh, &boundary), || check_hexes_within(mesh, monitor));
-        nodes.extend(defects?.iter().filter_map(hanging));
+        let mut nodes = coincident(mesh, &boundary);
+        nodes.extend(check_hexes_within(mesh, monitor)?.iter().filter_map(hanging));
         nodes.sort_unstable();
         nodes.dedup();
         if nodes.is_empty() {

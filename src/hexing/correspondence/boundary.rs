@@ -67,10 +67,9 @@ impl Boundary {
         }
         let quads: Vec<[u32; 4]> = faces.iter().map(|(q, _)| q.map(|node| number[node.index()])).collect();
         let points: Vec<Point> = nodes.iter().map(|node| mesh.positions[node.index()]).collect();
+        let (spokes, first) = spokes(&quads, nodes.len());
         let leaves = points.iter().zip(0..).map(|(p, n)| GeomWithData::new(p.to_array(), n));
-        let leaves = leaves.collect();
-        let ((spokes, first), tree) =
-            parallel::join(|| spokes(&quads, nodes.len()), || RTree::bulk_load(leaves));
+        let tree = RTree::bulk_load(leaves.collect());
         let mut boundary =
             Self { nodes, points, normals: vec![], lengths: vec![], quads, spokes, first, tree };
         monitor.proceed()?;

@@ -48,7 +48,12 @@ impl HexFaces {
         hexes: &[[NodeId; 8]],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let (nodes, of_hex) = numbered(node_count, hexes, FACES, FaceId, monitor)?;
+        let degrees = degrees(node_count, hexes.as_flattened());
+        let shares = parallel::shares(node_count, 6 * hexes.len());
+        let (nodes, of_hex) = match shares.len() {
+            1 => numbered(&degrees, hexes, FACES, FaceId, monitor)?,
+            _ => faces_in_shares(&degrees, shares, hexes, monitor)?,
+        };
         let sides =
             Bins::monitored(nodes.len(), 6 * of_hex.len(), |k| of_hex.as_flattened()[k].index(), monitor)?;
         Ok(Self { nodes, of_hex, sides })
@@ -100,7 +105,8 @@ impl HexEdges {
         hexes: &[[NodeId; 8]],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let (ends, of_hex) = numbered(node_count, hexes, EDGES, EdgeId, monitor)?;
+        let degrees = degrees(node_count, hexes.as_flattened());
+        let (ends, of_hex) = numbered(&degrees, hexes, EDGES, EdgeId, monitor)?;
         Ok(Self { ends, of_hex })
     }
 }
@@ -134,21 +140,14 @@ pub fn hex_boundary(hexes: &[[NodeId; 8]]) -> Vec<([NodeId; 4], HexId)> {
 type Numbered<const N: usize, const PARTS: usize, Id> = (Vec<[NodeId; N]>, Vec<[Id; PARTS]>);
 
 /// Numbers the parts of the hexes: each hex has one for each row of `table`.
-fn numbered<const N: usize, const PARTS: usize, Id: Send>(
-    node_count: usize,
+fn numbered<const N: usize, const PARTS: usize, Id>(
+    degrees: &[u32],
     hexes: &[[NodeId; 8]],
     table: [[u8; N]; PARTS],
-    id: impl Fn(u32) -> Id + Sync,
+    id: impl Fn(u32) -> Id,
     monitor: &dyn Monitor,
 ) -> Result<Numbered<N, PARTS, Id>, Cancelled> {
-    // Three for each hex inside and more on the boundary: seldom more than three and a half.
-    let expected = 7 * hexes.len() / 2;
-    let degrees = degrees(node_count, hexes.as_flattened());
-    let shares = parallel::shares(node_count, PARTS * hexes.len());
-    if shares.len() > 1 {
-        return numbered_in_shares((&degrees, expected, shares), hexes, table, id, monitor);
-    }
-    let mut sets = NodeSets::new(&degrees, expected);
+    let mut sets = NodeSets::new(degrees, expected(hexes));
     let mut of_hex = Vec::with_capacity(hexes.len());
     for batch in batches(hexes.len(), monitor) {
         let parts = |hex: &[NodeId; 8]| table.map(|local| id(sets.number(corners(hex, local))));
@@ -157,47 +156,48 @@ fn numbered<const N: usize, const PARTS: usize, Id: Send>(
     Ok((sets.into_nodes(), of_hex))
 }
 
-/// The same by many threads, each of which finds those that a share of the nodes own. A use is `PARTS` times a hex, and the
-/// row of the table there; the number of a part is the place of its first use among all such.
-fn numbered_in_shares<const N: usize, const PARTS: usize, Id: Send>(
-    (degrees, expected, shares): (&[u32], usize, Vec<Range<usize>>),
+/// How many faces or edges so many hexes have: three for each hex inside and more on the boundary, seldom more than three and a
+/// half.
+fn expected(hexes: &[[NodeId; 8]]) -> usize {
+    7 * hexes.len() / 2
+}
+
+/// Numbers faces by many threads, each of which finds those that a share of the nodes own. The number of a face is the place of
+/// its first side among the first sides of all.
+fn faces_in_shares(
+    degrees: &[u32],
+    shares: Vec<Range<usize>>,
     hexes: &[[NodeId; 8]],
-    table: [[u8; N]; PARTS],
-    id: impl Fn(u32) -> Id + Sync,
     monitor: &dyn Monitor,
-) -> Result<Numbered<N, PARTS, Id>, Cancelled> {
-    /// Is set with the first use of a part in all others.
+) -> Result<Numbered<4, 6, FaceId>, Cancelled> {
+    /// Is set with the first side of a face in all others.
     const LATER: u32 = 1 << 31;
-    let uses = PARTS * hexes.len();
-    assert!(uses <= LATER as usize, "no more than 2^31 uses");
-    let number: Vec<AtomicU32> = parallel::try_collect(uses, monitor, |_| AtomicU32::new(0))?;
-    let expected = expected / shares.len();
+    let sides = 6 * hexes.len();
+    assert!(sides <= LATER as usize, "no more than 2^31 sides");
+    let number: Vec<AtomicU32> = parallel::try_collect(sides, monitor, |_| AtomicU32::new(0))?;
+    let expected = expected(hexes) / shares.len();
     parallel::try_each_part(shares, monitor, |share| {
         let mut sets = NodeSets::of_owners(degrees, share.clone(), expected);
-        let mut first: Vec<u32> = Vec::with_capacity(expected);
-        for batch in batches(hexes.len(), monitor) {
-            for h in batch? {
-                for (k, local) in table.into_iter().enumerate() {
-                    let part = PARTS * h + k;
-                    match sets.number_if_owned(corners(&hexes[h], local)).map(|set| first.get(set as usize)) {
-                        Some(Some(first)) => number[part].store(LATER | first, Relaxed),
-                        Some(None) => first.push(part as u32),
-                        None => {}
-                    }
+        let mut first: Vec<Side> = Vec::with_capacity(expected);
+        for batch in batches(sides, monitor) {
+            for side in batch?.map(|side| side as Side) {
+                match sets.number_if_owned(side_nodes(hexes, side)).map(|set| first.get(set as usize)) {
+                    Some(Some(first)) => number[side as usize].store(LATER | first, Relaxed),
+                    Some(None) => first.push(side),
+                    None => {}
                 }
             }
         }
         Ok(())
     })?;
-    let first = parallel::try_filter(uses, monitor, |part| number[part].load(Relaxed) < LATER)?;
+    let first = parallel::try_filter(sides, monitor, |side| number[side].load(Relaxed) < LATER)?;
     parallel::for_each(first.len(), |k| number[first[k] as usize].store(k as u32, Relaxed));
-    let part = |part: u32| corners(&hexes[part as usize / PARTS], table[part as usize % PARTS]);
-    let nodes = parallel::try_collect(first.len(), monitor, |k| part(first[k]))?;
+    let nodes = parallel::try_collect(first.len(), monitor, |k| side_nodes(hexes, first[k]))?;
     drop(first);
     let of_hex = parallel::try_collect(hexes.len(), monitor, |h| {
-        std::array::from_fn(|k| match number[PARTS * h + k].load(Relaxed) {
-            later if later >= LATER => id(number[(later - LATER) as usize].load(Relaxed)),
-            number => id(number),
+        std::array::from_fn(|k| match number[6 * h + k].load(Relaxed) {
+            later if later >= LATER => FaceId(number[(later - LATER) as usize].load(Relaxed)),
+            number => FaceId(number),
         })
     })?;
     Ok((nodes, of_hex))
