@@ -266,34 +266,20 @@ pub fn shares(count: usize, len: usize) -> Vec<Range<usize>> {
     (0..shares).map(|k| count * k / shares..count * (k + 1) / shares).collect()
 }
 
-/// The items in these ranges, which are next to each other, from the first item on.
-///
-/// # Panics
-/// If they are not.
-pub fn split<'a, T>(items: &'a mut [T], ranges: &[Range<usize>]) -> Vec<&'a mut [T]> {
-    let (mut start, mut rest) = (0, items);
-    let mut parts = Vec::with_capacity(ranges.len());
-    for range in ranges {
-        assert_eq!(range.start, start, "ranges next to each other");
-        let (part, behind) = rest.split_at_mut(range.len());
-        parts.push(part);
-        (start, rest) = (range.end, behind);
-    }
-    parts
-}
-
 /// Calls `work` for each of a few parts of what is to be done, which may stop.
 ///
 /// # Errors
 /// If the monitor stops it, or `work` does.
 pub fn try_each_part<T: Send>(
-    parts: Vec<T>,
+    mut parts: Vec<T>,
     monitor: &dyn Monitor,
     work: impl Fn(&mut T) -> Result<(), Cancelled> + Sync,
 ) -> Result<(), Cancelled> {
-    let mut parts: Vec<(T, Result<(), Cancelled>)> = parts.into_iter().map(|part| (part, Ok(()))).collect();
-    try_for_each_mut(&mut parts, monitor, |_, (part, done)| *done = work(part))?;
-    parts.into_iter().try_for_each(|(_, done)| done)
+    let stopped = AtomicBool::new(false);
+    try_for_each_mut(&mut parts, monitor, |_, part| {
+        stopped.fetch_or(work(part).is_err(), Relaxed);
+    })?;
+    if stopped.into_inner() { Err(Cancelled) } else { Ok(()) }
 }
 
 /// What `make` gives for each block of `size` numbers below `count`, the last of which may be shorter. What is summed by

@@ -48,14 +48,12 @@ fn round(
 ) -> Result<Moved, Cancelled> {
     let mut moved = Moved::default();
     for colour in 0..problem.colours.len() {
-        let of_colour = &problem.colours[colour];
-        let drawn = |k: usize| {
-            let id = problem.nodes[of_colour[k] as usize];
+        let is_drawn = |&n: &u32| {
+            let id = problem.nodes[n as usize];
             let is_free = holds.anchors[id.index()].freedom() <= freedom;
-            let is_drawn = allowed[of_colour[k] as usize] && is_free && holds.is(id, Hold::Drawn);
-            is_drawn.then_some(of_colour[k])
+            allowed[n as usize] && is_free && holds.is(id, Hold::Drawn)
         };
-        let nodes = parallel::filter_map(of_colour.len(), drawn);
+        let nodes: Vec<u32> = problem.colours[colour].iter().copied().filter(is_drawn).collect();
         for batch in nodes.chunks(BATCH) {
             if monitor.cancelled() {
                 return Err(Cancelled);

@@ -1,9 +1,7 @@
 //! Which places of a list name each of a row of things.
 
-use std::ops::Range;
-
 use crate::monitor::batches;
-use crate::{Cancelled, Monitor, Silent, parallel};
+use crate::{Cancelled, Monitor, Silent};
 
 /// For each bin the places in a list that name it, in ascending order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -15,7 +13,7 @@ pub(crate) struct Bins {
 
 impl Bins {
     /// Turns a list of `len` bins around, by a counting sort; every bin named is less than `count`.
-    pub fn of(count: usize, len: usize, bin: impl Fn(usize) -> usize + Sync) -> Self {
+    pub fn of(count: usize, len: usize, bin: impl Fn(usize) -> usize) -> Self {
         Self::monitored(count, len, bin, &Silent).expect("nobody stops it")
     }
 
@@ -23,58 +21,37 @@ impl Bins {
     pub fn monitored(
         count: usize,
         len: usize,
-        bin: impl Fn(usize) -> usize + Sync,
+        bin: impl Fn(usize) -> usize,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         Self::sorted(count, len, &bin, monitor)
     }
 
-    /// No generic function: the web would have to fetch one for each caller. Every thread looks at all of the list, and sorts
-    /// what goes to its share of the bins.
+    /// No generic function: the web would have to fetch one for each caller.
     fn sorted(
         count: usize,
         len: usize,
-        bin: &(dyn Fn(usize) -> usize + Sync),
+        bin: &dyn Fn(usize) -> usize,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let shares = parallel::shares(count, len);
         let mut offsets = vec![0u32; count + 1];
-        let counts = shares.iter().cloned().zip(parallel::split(&mut offsets, &shares)).collect();
-        parallel::try_each_part(counts, monitor, |(share, counts)| {
-            for batch in batches(len, monitor) {
-                batch?.map(bin).filter(|b| share.contains(b)).for_each(|b| counts[b - share.start] += 1);
-            }
-            Ok(())
-        })?;
+        for batch in batches(len, monitor) {
+            batch?.for_each(|k| offsets[bin(k)] += 1);
+        }
         let mut end = 0;
         for offset in &mut offsets {
             end += *offset;
             *offset = end;
         }
         let mut places = vec![0u32; len];
-        let start = |b: usize| if b == 0 { 0 } else { offsets[b - 1] as usize };
-        let ranges: Vec<Range<usize>> =
-            shares.iter().map(|share| start(share.start)..start(share.end)).collect();
-        let of_places = ranges.iter().map(|range| range.start).zip(parallel::split(&mut places, &ranges));
-        let of_bins = shares.iter().cloned().zip(parallel::split(&mut offsets, &shares));
-        parallel::try_each_part(
-            of_bins.zip(of_places).collect(),
-            monitor,
-            |((share, ends), (first, places))| {
-                for batch in batches(len, monitor) {
-                    // From the last, so that each bin's places ascend.
-                    for k in batch?.map(|k| len - 1 - k) {
-                        let b = bin(k);
-                        if share.contains(&b) {
-                            let end = &mut ends[b - share.start];
-                            *end -= 1;
-                            places[*end as usize - *first] = u32::try_from(k).expect("more than 2^32 places");
-                        }
-                    }
-                }
-                Ok(())
-            },
-        )?;
+        for batch in batches(len, monitor) {
+            // From the last, so that each bin's places ascend.
+            for k in batch?.map(|k| len - 1 - k) {
+                let offset = &mut offsets[bin(k)];
+                *offset -= 1;
+                places[*offset as usize] = u32::try_from(k).expect("more than 2^32 places");
+            }
+        }
         Ok(Self { offsets, places })
     }
 
@@ -90,7 +67,7 @@ impl Bins {
     }
 
     /// Where the places of bin `b` stand among those of all bins.
-    pub fn range(&self, b: usize) -> Range<usize> {
+    pub fn range(&self, b: usize) -> std::ops::Range<usize> {
         self.offsets[b] as usize..self.offsets[b + 1] as usize
     }
 }

@@ -1,4 +1,4 @@
-//! The same numbers and bins for any number of threads.
+//! The same numbers for any number of threads.
 
 use std::collections::BTreeMap;
 
@@ -56,19 +56,4 @@ fn any_number_of_threads_numbers_as_a_walk_does() {
         assert!(edges.of_hex.iter().map(|hex| hex.map(|e| e.0)).eq(edges_of_hex.iter().copied()));
         assert!(faces.ids().all(|f| faces.sides(f) == sides[f.index()]));
     });
-}
-
-#[test]
-fn any_number_of_threads_sorts_alike() {
-    let scattered = |count: usize| move |k: usize| k.wrapping_mul(2_654_435_761) / 7 % count;
-    for (count, len) in [(0, 0), (1, 100_000), (3, 70_000), (5_000, 0), (5_000, 100), (5_000, 100_000)] {
-        let bin = scattered(count.max(1));
-        let mut expected = vec![Vec::new(); count];
-        (0..len).for_each(|k| expected[bin(k)].push(k as u32));
-        on_pools(|threads| {
-            let bins = Bins::of(count, len, bin);
-            assert!((0..count).all(|b| bins.at(b) == expected[b]), "{count} {len} {threads}");
-            assert_eq!((0..count).map(|b| bins.range(b).len()).sum::<usize>(), len);
-        });
-    }
 }

@@ -15,11 +15,7 @@ pub(super) struct Stars(Bins);
 
 impl Stars {
     /// The stars of `node_count` nodes among `count` hexes; `nodes` says which nodes the `k`-th has.
-    pub(super) fn new(
-        node_count: usize,
-        count: usize,
-        nodes: impl Fn(usize) -> [NodeId; 8] + Clone + Sync,
-    ) -> Self {
+    pub(super) fn new(node_count: usize, count: usize, nodes: impl Fn(usize) -> [NodeId; 8] + Clone) -> Self {
         Self(Bins::of(node_count, 8 * count, |place| nodes(place / 8)[place % 8].index()))
     }
 
