@@ -266,22 +266,6 @@ pub fn shares(count: usize, len: usize) -> Vec<Range<usize>> {
     (0..shares).map(|k| count * k / shares..count * (k + 1) / shares).collect()
 }
 
-/// Calls `work` for each of a few parts of what is to be done, which may stop.
-///
-/// # Errors
-/// If the monitor stops it, or `work` does.
-pub fn try_each_part<T: Send>(
-    mut parts: Vec<T>,
-    monitor: &dyn Monitor,
-    work: impl Fn(&mut T) -> Result<(), Cancelled> + Sync,
-) -> Result<(), Cancelled> {
-    let stopped = AtomicBool::new(false);
-    try_for_each_mut(&mut parts, monitor, |_, part| {
-        stopped.fetch_or(work(part).is_err(), Relaxed);
-    })?;
-    if stopped.into_inner() { Err(Cancelled) } else { Ok(()) }
-}
-
 /// What `make` gives for each block of `size` numbers below `count`, the last of which may be shorter. What is summed by
 /// blocks, and then in their order, is the same to the last bit for any number of threads.
 pub fn blocks<T: Send>(count: usize, size: usize, make: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {

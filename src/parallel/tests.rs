@@ -230,18 +230,3 @@ fn shares_are_all_numbers_in_order() {
         }
     });
 }
-
-#[test]
-fn what_one_part_cannot_end_is_told() {
-    on_pools(|| {
-        let done = AtomicUsize::new(0);
-        let work = |&mut part: &mut usize| {
-            done.fetch_add(part, Relaxed);
-            if part == 2 { Err(Cancelled) } else { Ok(()) }
-        };
-        assert_eq!(try_each_part(vec![1, 3, 4], &Silent, work), Ok(()));
-        assert_eq!(try_each_part(vec![1, 2, 3], &Silent, work), Err(Cancelled));
-        assert_eq!(try_each_part(Vec::new(), &Silent, work), Ok(()));
-        assert_eq!(done.into_inner(), 8 + 6);
-    });
-}

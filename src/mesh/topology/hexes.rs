@@ -52,7 +52,7 @@ impl HexFaces {
         let shares = parallel::shares(node_count, 6 * hexes.len());
         let (nodes, of_hex) = match shares.len() {
             1 => numbered(&degrees, hexes, FACES, FaceId, monitor)?,
-            _ => faces_in_shares(&degrees, shares, hexes, monitor)?,
+            _ => faces_in_shares(&degrees, &shares, hexes, monitor)?,
         };
         let sides =
             Bins::monitored(nodes.len(), 6 * of_hex.len(), |k| of_hex.as_flattened()[k].index(), monitor)?;
@@ -166,7 +166,7 @@ fn expected(hexes: &[[NodeId; 8]]) -> usize {
 /// its first side among the first sides of all.
 fn faces_in_shares(
     degrees: &[u32],
-    shares: Vec<Range<usize>>,
+    shares: &[Range<usize>],
     hexes: &[[NodeId; 8]],
     monitor: &dyn Monitor,
 ) -> Result<Numbered<4, 6, FaceId>, Cancelled> {
@@ -176,8 +176,8 @@ fn faces_in_shares(
     assert!(sides <= LATER as usize, "no more than 2^31 sides");
     let number: Vec<AtomicU32> = parallel::try_collect(sides, monitor, |_| AtomicU32::new(0))?;
     let expected = expected(hexes) / shares.len();
-    parallel::try_each_part(shares, monitor, |share| {
-        let mut sets = NodeSets::of_owners(degrees, share.clone(), expected);
+    let done = parallel::try_collect(shares.len(), monitor, |k| {
+        let mut sets = NodeSets::of_owners(degrees, shares[k].clone(), expected);
         let mut first: Vec<Side> = Vec::with_capacity(expected);
         for batch in batches(sides, monitor) {
             for side in batch?.map(|side| side as Side) {
@@ -190,6 +190,7 @@ fn faces_in_shares(
         }
         Ok(())
     })?;
+    done.into_iter().collect::<Result<(), Cancelled>>()?;
     let first = parallel::try_filter(sides, monitor, |side| number[side].load(Relaxed) < LATER)?;
     parallel::for_each(first.len(), |k| number[first[k] as usize].store(k as u32, Relaxed));
     let nodes = parallel::try_collect(first.len(), monitor, |k| side_nodes(hexes, first[k]))?;
