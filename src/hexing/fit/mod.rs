@@ -91,8 +91,7 @@ const NEAR: f64 = 0.6;
 /// A course more of evening out counts where it leaves so much less between mesh and solid.
 const NEARER: f64 = 0.92;
 
-/// Another is made where they are apart by more than so many edges, for so many rings of cells around what is far.
-const FAR: f64 = 0.15;
+/// Another is made for so many rings of cells around what is far.
 const AGAIN: usize = 8;
 
 /// How much of the work a round of these is, and unlocking alone.
@@ -283,7 +282,7 @@ fn even_and_near(
 ) -> Result<Nearness, Cancelled> {
     let mut survey = Survey::new(mesh, &on.faces, solid, monitor)?;
     let far = vec![true; mesh.positions.len()];
-    let mut all = Nearness { sweeps: 0, apart: f64::INFINITY, far };
+    let mut all = Nearness { sweeps: 0, at_first: f64::INFINITY, apart: f64::INFINITY, far };
     for (k, evening) in Evening::ALL.into_iter().enumerate() {
         let range = [k, k + 1].map(|k| k as f64 / Evening::ALL.len() as f64);
         let part = Part { whole: monitor, stage: FITTING, range };
@@ -298,7 +297,7 @@ fn even_and_near(
             mesh.positions = before;
             all.sweeps = came.sweeps;
         }
-        if !all.far.contains(&true) || all.apart <= FAR * survey.edge {
+        if !all.calls_for_more(survey.edge, solid.diagonal()) {
             break;
         }
     }

@@ -33,6 +33,11 @@ const ROUNDS: usize = 6;
 /// Another round is made where the farthest is so much nearer than it was before.
 const ENOUGH: f64 = 0.98;
 
+/// Another course is made where they stay apart by more than so many edges, and than this share of the solid's diagonal:
+/// of small cells a share of an edge is next to nothing.
+const FAR: f64 = 0.15;
+const FAR_OF_SOLID: f64 = 0.0015;
+
 /// Rings of cells around them whose inside follows.
 const RINGS: usize = 2;
 
@@ -57,10 +62,20 @@ const BATCH: usize = 256;
 pub(super) struct Nearness {
     /// Sweeps over nodes.
     pub(super) sweeps: usize,
-    /// How far mesh and solid are apart where they are farthest, in model units.
+    /// How far mesh and solid were apart where they were farthest, and how far they are, in model units.
+    pub(super) at_first: f64,
     pub(super) apart: f64,
     /// The nodes where they are too far.
     pub(super) far: Vec<bool>,
+}
+
+impl Nearness {
+    /// Is another course worth its while, with edges of that length and a solid of that diagonal? Not where nodes found
+    /// hardly better places than they had.
+    pub(super) fn calls_for_more(&self, edge: f64, diagonal: f64) -> bool {
+        let near = (FAR * edge).max(FAR_OF_SOLID * diagonal);
+        self.far.contains(&true) && self.apart > near && self.apart <= ENOUGH * self.at_first
+    }
 }
 
 /// What is asked of it, and what it may cost.
@@ -88,7 +103,7 @@ pub(super) fn near(
 ) -> Result<Nearness, Cancelled> {
     let solid = survey.solid;
     let target = OnSolid::new(solid, &on.reduction);
-    let mut came = Nearness { sweeps: 0, apart: f64::INFINITY, far: Vec::new() };
+    let mut came = Nearness { sweeps: 0, at_first: f64::INFINITY, apart: f64::INFINITY, far: Vec::new() };
     let mut best = Vec::new();
     for round in 0..=ROUNDS {
         let part = |from: f64, to: f64| Part {
@@ -101,6 +116,9 @@ pub(super) fn near(
         if farthest > came.apart {
             mesh.positions = best;
             break;
+        }
+        if round == 0 {
+            came.at_first = farthest;
         }
         let is_last = round == ROUNDS || farthest > ENOUGH * came.apart || farthest <= terms.enough;
         came.far = far(mesh, on, holds, survey, SHARE * farthest);
@@ -378,6 +396,18 @@ mod tests {
         let came = brought(&mut mesh, &on, &held(&on), &solid, f64::INFINITY);
         assert!(came.sweeps == 0 && !came.far.contains(&true) && came.apart < LEAST * 0.4, "{}", came.apart);
         assert_eq!(mesh.positions, before);
+    }
+
+    #[test]
+    fn another_course_is_made_where_that_may_help() {
+        let calls = |at_first: f64, apart: f64, is_far: bool, diagonal: f64| {
+            Nearness { sweeps: 0, at_first, apart, far: vec![false, is_far] }.calls_for_more(1.0, diagonal)
+        };
+        assert!(calls(0.5, 0.16, true, 50.0));
+        assert!(!calls(0.5, 0.14, true, 50.0), "near for an edge");
+        assert!(!calls(0.5, 0.16, true, 110.0), "near for the solid");
+        assert!(!calls(0.5, 0.16, false, 50.0), "no node that may move is far");
+        assert!(!calls(0.5, 0.495, true, 50.0), "there was no better place");
     }
 
     #[test]
