@@ -77,9 +77,10 @@ export async function setUpWasmBindgen() {
   process.env.PATH = `${own}:${process.env.PATH}`;
   const found = output('wasm-bindgen', ['--version']);
   if (found === `wasm-bindgen ${WASM_BINDGEN}` && which('wasm-bindgen-test-runner')) return;
-  say(`installing wasm-bindgen ${WASM_BINDGEN} into .tools/ (a few minutes, once)`);
+  say(`installing wasm-bindgen ${WASM_BINDGEN} into .tools/ (a minute or two, once)`);
+  // Not optimized it is there two minutes sooner, writes the same bytes, and takes a second more for a module.
   await must('cargo', ['install', 'wasm-bindgen-cli', '--version', WASM_BINDGEN, '--root', TOOLS, '--force'], {
-    env: { CARGO_TARGET_DIR: join(root, 'target', 'tools') },
+    env: { CARGO_TARGET_DIR: join(root, 'target', 'tools'), CARGO_PROFILE_RELEASE_OPT_LEVEL: '0' },
   });
 }
 
