@@ -14,7 +14,8 @@
 //!    off the solid, or on curves that nobody drew, may go a little farther;
 //! 7. `even`: all is smoothed for the mean;
 //! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places. Where they stay far apart
-//!    the last two steps are made again around there, with other courses, and each counts that brings them much nearer;
+//!    and nodes found much better places, the last two steps are made again around there, with other courses, and each counts
+//!    that brings them much nearer;
 //! 9. `approach`: where they are so far apart that another attempt would be made, with cells that are fair instead of good,
 //!    and with room that is made among the worst of them ([`Fitted::approach`]);
 //! 10. `even` once more, for what is inside and in planes ([`Fitted::finish`]): that takes mesh and solid no farther from

@@ -73,8 +73,8 @@ impl Nearness {
     /// Is another course worth its while, with edges of that length and a solid of that diagonal? Not where nodes found
     /// hardly better places than they had.
     pub(super) fn calls_for_more(&self, edge: f64, diagonal: f64) -> bool {
-        let near = (FAR * edge).max(FAR_OF_SOLID * diagonal);
-        self.far.contains(&true) && self.apart > near && self.apart <= ENOUGH * self.at_first
+        let limit = (FAR * edge).max(FAR_OF_SOLID * diagonal);
+        self.far.contains(&true) && self.apart > limit && self.apart <= ENOUGH * self.at_first
     }
 }
 
