@@ -201,3 +201,77 @@ fn boundary_triangles(on: &Correspondence) -> Vec<[u32; 3]> {
     };
     on.faces.iter().flat_map(|&(quad, _)| halves(quad)).collect()
 }
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+    use super::super::fit::testing::house;
+    use super::super::fit::{APPROACH, GOOD};
+    use super::super::merit::distance;
+    use super::super::options::HexingOptions;
+    use super::*;
+    use crate::{Silent, Stage};
+
+    /// Hears whether a mesh approaches its solid.
+    #[derive(Default)]
+    struct Hearing(AtomicBool);
+
+    impl Monitor for Hearing {
+        fn progress(&self, stage: Stage, fraction: f64) {
+            self.0.fetch_or(stage == Stage("fitting") && fraction > APPROACH, Relaxed);
+        }
+        fn cancelled(&self) -> bool {
+            false
+        }
+    }
+
+    /// What comes of a fit to a house with such a ridge.
+    struct Came {
+        approached: bool,
+        /// Places that are too far.
+        failures: usize,
+        distance: f64,
+        worst: f64,
+    }
+
+    fn fitted(aside: f64, max_distance: f64) -> Came {
+        let (solid, _) = house(aside);
+        let (edge_length, max_distance) = (0.4, Some(max_distance));
+        let background = Background::Grid;
+        let options = HexingOptions { edge_length, background, max_distance, ..HexingOptions::default() };
+        let site = Site::new(&solid, &options, &Silent).unwrap();
+        let plan = site.plan(Background::Grid);
+        let background = site.background(&plan, u64::MAX, &Silent).unwrap();
+        let draft = draft(&site, &plan, background, None, &Silent).unwrap().ok().unwrap();
+        let hearing = Hearing::default();
+        let (report, _, failures) = draft.fit(&site, &hearing).unwrap();
+        let worst = report.mesh.as_ref().unwrap().worst;
+        let approached = hearing.0.into_inner();
+        Came { approached, failures: failures.len(), distance: distance(&report), worst }
+    }
+
+    #[test]
+    fn a_mesh_that_is_too_far_approaches_with_fair_cells() {
+        let good = fitted(0.3, 0.04);
+        assert!(!good.approached && good.failures == 0 && good.worst >= GOOD);
+        assert!((0.03..0.04).contains(&good.distance));
+        let fair = fitted(0.3, 0.03);
+        assert!(fair.approached && fair.failures == 0 && (0.35..GOOD).contains(&fair.worst));
+        assert!(fair.distance < 0.03);
+    }
+
+    #[test]
+    fn a_mesh_that_cannot_get_near_enough_stays_as_good_as_it_was() {
+        let [before, after] = [0.04, 0.03].map(|max_distance| fitted(0.5, max_distance));
+        assert!(!before.approached && before.failures == 0);
+        assert!(after.approached && after.failures > 0);
+        assert_eq!((after.distance, after.worst), (before.distance, before.worst));
+    }
+
+    #[test]
+    fn a_mesh_that_misses_more_than_distance_does_not_approach() {
+        let came = fitted(0.7, 0.03);
+        assert!(!came.approached && came.failures > 0 && came.distance > 0.03);
+    }
+}

@@ -129,11 +129,6 @@ impl<'a> Holds<'a> {
             *hold = by;
         }
     }
-
-    /// The nodes that are drawn.
-    pub(super) fn stuck(&self) -> usize {
-        self.holds.iter().filter(|&&hold| hold == Hold::Drawn).count()
-    }
 }
 
 impl Guide for Holds<'_> {

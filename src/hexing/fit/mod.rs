@@ -5,21 +5,19 @@
 //! 1. `inflate`: cells of new sheets are pushed open, all nodes free, until every cell is positive;
 //! 2. `pull`: boundary nodes are drawn to their corner, to their curve, `spread` along it, or to their surface, ever more
 //!    strongly, and held there (`snap`) as soon as the cells bear it. No step is taken that turns a cell over;
-//! 3. `unlock`: around nodes that got stuck the others are let go for a while;
-//! 4. smoothing, the worst cells above all, while boundary nodes slide on the solid. Better cells can make room: as long
-//!    as fewer nodes are stuck than before, the last two steps are made again, twice at most, with the cells around what
-//!    moved;
-//! 5. `loosen`: nodes that cannot get to a curve that somebody drew rest on a surface beside it;
-//! 6. `soften`: soft curves that cost cells are given up, and the worst cells smoothed again, for which nodes that are
+//! 3. smoothing, the worst cells above all, while boundary nodes slide on the solid;
+//! 4. `loosen`: nodes that cannot get to a curve that somebody drew rest on a surface beside it, for which those around
+//!    are let go for a while (`unlock`);
+//! 5. `soften`: soft curves that cost cells are given up, and the worst cells smoothed again, for which nodes that are
 //!    off the solid, or on curves that nobody drew, may go a little farther;
-//! 7. `even`: all is smoothed for the mean;
-//! 8. `near`: where mesh and solid are farthest from each other, boundary nodes try other places. Where they stay far apart
+//! 6. `even`: all is smoothed for the mean;
+//! 7. `near`: where mesh and solid are farthest from each other, boundary nodes try other places. Where they stay far apart
 //!    and nodes found much better places, the last two steps are made again around there, with other courses, and each counts
 //!    that brings them much nearer;
-//! 9. `approach`: where they are so far apart that another attempt would be made, with cells that are fair instead of good,
+//! 8. `approach`: where they are so far apart that another attempt would be made, with cells that are fair instead of good,
 //!    and with room that is made among the worst of them ([`Fitted::approach`]);
-//! 10. `even` once more, for what is inside and in planes ([`Fitted::finish`]): that takes mesh and solid no farther from
-//!     each other, so that meshes can be held against each other before it, and only the one that is kept needs it.
+//! 9. `even` once more, for what is inside and in planes ([`Fitted::finish`]): that takes mesh and solid no farther from
+//!    each other, so that meshes can be held against each other before it, and only the one that is kept needs it.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. What could not be reached stays
 //! off the solid and is reported with its distance.
@@ -69,24 +67,23 @@ use survey::Survey;
 #[cfg(test)]
 pub(super) use target::Foot;
 pub(super) use target::{OnSolid, Target};
-use unlock::unlock;
 
 const FITTING: Stage = Stage("fitting");
 
 /// Drawing the boundary makes no cell worse than this, unless it is already.
 const FLOOR: f64 = 0.2;
 
-/// The share of the work that is done where the pull starts, and where stuck nodes are unlocked and cells smoothed, again
-/// as long as that frees some, and where those that stay stuck are let go.
+/// The share of the work that is done where the pull starts, where cells are smoothed, and where nodes that stay stuck are
+/// let go.
 const PULL: f64 = 0.1;
-const UNLOCK: [f64; 3] = [0.3, 0.5, 0.7];
-const LOOSEN: f64 = 0.9;
+const SMOOTH: f64 = 0.5;
+const LOOSEN: f64 = 0.8;
 
 /// The share of the work that is done where soft curves are given up, where all is evened out, and where only what is far
 /// from the solid is left; of a course of evening out the share where mesh and solid are brought nearer.
 const SOFTEN: f64 = 0.9;
 const EVEN: f64 = 0.94;
-const APPROACH: f64 = 0.98;
+pub(super) const APPROACH: f64 = 0.98;
 const NEAR: f64 = 0.6;
 
 /// A course more of evening out counts where it leaves so much less between mesh and solid.
@@ -95,12 +92,8 @@ const NEARER: f64 = 0.92;
 /// Another is made for so many rings of cells around what is far.
 const AGAIN: usize = 8;
 
-/// How much of the work a round of these is, and unlocking alone.
-const ROUND: f64 = 0.2;
-const UNLOCKING: f64 = 0.1;
-
 /// A scaled Jacobian that no cell loses for the sake of distance, unless another attempt would be made for that.
-const GOOD: f64 = 0.45;
+pub(super) const GOOD: f64 = 0.45;
 
 /// How far nodes may be from where they belong for the sake of cells, in edges, if they are not farther already.
 const LEAVE: f64 = 0.15;
@@ -239,18 +232,9 @@ fn fitted(
     let mut awake = problem.rings_around(&cells, RINGS);
     let all = vec![true; problem.movable()];
     let course = Course { stage: FITTING, sweeps: options.sweeps, floor: FLOOR };
-    sweeps += pull(&mut problem, &mut holds, &chains, &all, &mut awake, course, &part(PULL, UNLOCK[0]))?;
-    for (k, from) in UNLOCK.into_iter().enumerate() {
-        let stuck = holds.stuck();
-        let unlocked = unlock(&mut problem, &mut holds, &chains, &[], &part(from, from + UNLOCKING))?;
-        holds.weight = 0.0;
-        let moved = (k > 0).then_some(unlocked.moved.as_slice());
-        let part = part(from + UNLOCKING, from + ROUND);
-        sweeps += unlocked.sweeps + smooth(&mut problem, &holds, &options.smoothing, moved, &part)?;
-        if holds.stuck() == 0 || holds.stuck() >= stuck {
-            break;
-        }
-    }
+    sweeps += pull(&mut problem, &mut holds, &chains, &all, &mut awake, course, &part(PULL, SMOOTH))?;
+    holds.weight = 0.0;
+    sweeps += smooth(&mut problem, &holds, &options.smoothing, None, &part(SMOOTH, LOOSEN))?;
     sweeps += loosen(&mut problem, &mut holds, on, &options.smoothing, &part(LOOSEN, 1.0))?;
     monitor.checkpoint(FITTING, 1.0)?;
 
@@ -343,6 +327,6 @@ fn off(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], target: &dyn Target)
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
-mod testing;
+pub(super) mod testing;
 #[cfg(test)]
 mod tests;

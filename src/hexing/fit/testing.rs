@@ -16,7 +16,7 @@ const ROWS: u32 = 5;
 
 /// A house, and a mesh of cubes whose roof is straight. Each point of the ridge is so far from the middle, to one side and the
 /// other in turn; the mesh has no node near that.
-pub(super) fn house(aside: f64) -> (SolidModel, HexMesh) {
+pub(in super::super) fn house(aside: f64) -> (SolidModel, HexMesh) {
     let mut surface = PolygonMesh::default();
     for k in 0..=ROWS {
         let ridge = 1.0 + if k % 2 == 0 { aside } else { -aside };

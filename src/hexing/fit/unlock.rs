@@ -10,7 +10,6 @@ use super::holds::{Hold, Holds};
 use super::progress::Part;
 use super::pull::{Course, pull};
 use super::regions::{Mark, Regions, drawn};
-use super::spread::Chain;
 use crate::optimize::Problem;
 use crate::{Cancelled, Monitor};
 
@@ -40,7 +39,6 @@ pub(super) struct Unlocked {
 pub(super) fn unlock(
     problem: &mut Problem,
     holds: &mut Holds,
-    chains: &[Chain],
     marks: &[Mark],
     monitor: &dyn Monitor,
 ) -> Result<Unlocked, Cancelled> {
@@ -60,7 +58,7 @@ pub(super) fn unlock(
         let course = Course { stage: FITTING, sweeps: SWEEPS, floor: FLOOR };
         let part =
             Part { whole: monitor, stage: FITTING, range: [k, k + 1].map(|k| k as f64 / RINGS.len() as f64) };
-        unlocked.sweeps += pull(problem, holds, chains, &regions.moves, &mut awake, course, &part)?;
+        unlocked.sweeps += pull(problem, holds, &[], &regions.moves, &mut awake, course, &part)?;
         let gains = regions.keep_better(problem, holds, marks, before, &mut unlocked.moved);
         unlocked.gain = gains.iter().copied().fold(unlocked.gain, f64::max);
         stuck = drawn(problem, holds).filter(|&n| gains[n as usize] > ENOUGH).collect();
@@ -112,7 +110,7 @@ mod tests {
         let target = OutOfReach { asked: AtomicUsize::new(0) };
         let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &|_| true);
         let mut holds = Holds::drawn(&target, &anchors);
-        let unlocked = unlock(&mut problem, &mut holds, &[], &[], &Silent).unwrap();
+        let unlocked = unlock(&mut problem, &mut holds, &[], &Silent).unwrap();
         drop(holds);
         (target.asked.into_inner(), unlocked)
     }
