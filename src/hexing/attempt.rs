@@ -229,7 +229,7 @@ mod tests {
     /// What comes of a fit to a house with such a ridge.
     struct Came {
         approached: bool,
-        /// Places that are too far.
+        /// How much it misses that smaller cells may show.
         failures: usize,
         distance: f64,
         worst: f64,
@@ -237,11 +237,14 @@ mod tests {
 
     fn fitted(aside: f64, max_distance: f64) -> Came {
         let (solid, _) = house(aside);
-        let (edge_length, max_distance) = (0.4, Some(max_distance));
-        let background = Background::Grid;
-        let options = HexingOptions { edge_length, background, max_distance, ..HexingOptions::default() };
+        let options = HexingOptions {
+            edge_length: 0.4,
+            background: Background::Grid,
+            max_distance: Some(max_distance),
+            ..HexingOptions::default()
+        };
         let site = Site::new(&solid, &options, &Silent).unwrap();
-        let plan = site.plan(Background::Grid);
+        let plan = site.plan(site.choice.kind);
         let background = site.background(&plan, u64::MAX, &Silent).unwrap();
         let draft = draft(&site, &plan, background, None, &Silent).unwrap().ok().unwrap();
         let hearing = Hearing::default();
@@ -271,7 +274,8 @@ mod tests {
 
     #[test]
     fn a_mesh_that_misses_more_than_distance_does_not_approach() {
-        let came = fitted(0.7, 0.03);
-        assert!(!came.approached && came.failures > 0 && came.distance > 0.03);
+        let [lost, both] = [10.0, 0.03].map(|max_distance| fitted(0.7, max_distance));
+        assert!(lost.failures > 0 && lost.distance < 10.0, "it misses something else");
+        assert!(both.failures > lost.failures && both.distance > 0.03 && !both.approached);
     }
 }
