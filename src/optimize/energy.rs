@@ -7,7 +7,12 @@
 //! shape      f = (|a|^2 + |b|^2 + |c|^2) / (3 chi^(2/3))     1 where a, b, c are equally long and perpendicular
 //! angles     r = |a| |b| |c| / chi                           1 / scaled Jacobian where eps is 0
 //! energy     (1 - mu) f^(3n) + mu r^(2n)                     n a power of two, or a half
+//! lengths    s = mean of the squares^3 / product of the squares   1 where a, b, c are equally long; f^3 = s r^2
+//! distortion the greater of r^2 and s / 20                  what no step raises beyond what is kept
 //! ```
+//!
+//! Angles do not see flat cells: a box with edges 1, 1 and h has a scaled Jacobian of 1 for any h. As the distortion has it,
+//! which is one over a scaled Jacobian's square, that is so up to 1 to 8; from there on the box counts as 8.2 h.
 //!
 //! f^3 and r^2 are rational in chi, so no root of third degree and no logarithm is taken.
 
@@ -16,6 +21,10 @@ use fearless_simd::{Simd, f64x4, mask64x4};
 
 use super::symmetric::Symmetric;
 use crate::geometry::Point;
+use crate::geometry::lanes::Number;
+
+/// How much unequal lengths count in a distortion.
+const UNEQUAL: f64 = 1.0 / 20.0;
 
 /// Which energy.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,8 +63,8 @@ pub(crate) struct Energy<S: Simd> {
     /// The parts that weigh shape and angles.
     pub(crate) shape: f64x4<S>,
     pub(crate) angles: f64x4<S>,
-    /// r^2.
-    pub(crate) angles_squared: f64x4<S>,
+    /// The greater of r^2 and s / 20.
+    pub(crate) distortion: f64x4<S>,
     /// One over the root of chi.
     over_root: f64x4<S>,
     determinant: f64x4<S>,
@@ -104,11 +113,12 @@ impl<S: Simd> Corners<S> {
         };
         let angles_squared = self.product * inverse;
         let q = self.mean_square;
+        let cubed = q * q * q;
         Energy {
             is_finite: chi.simd_gt(0.0),
-            shape: doubled(q * q * q * inverse, weights.doublings) * (1.0 - weights.mu),
+            shape: doubled(cubed * inverse, weights.doublings) * (1.0 - weights.mu),
             angles: doubled(angles_squared, weights.doublings) * weights.mu,
-            angles_squared,
+            distortion: angles_squared.greater(cubed / self.product * UNEQUAL),
             over_root,
             determinant,
         }
@@ -148,7 +158,23 @@ mod tests {
     use crate::geometry::lanes::level;
     use fearless_simd::dispatch;
 
-    /// The energy of a cube's corner with so long edges, r^2 and n times both parts, infinite where it is.
+    /// A box 1 by 1 by h counts as less than its angles tell if it is flatter than 1 to 8.
+    #[test]
+    fn a_flat_corner_is_distorted() {
+        #[inline(always)]
+        fn distortion<S: Simd>(simd: S, h: f64) -> f64 {
+            let all = |x: f64| f64x4::splat(simd, x);
+            let (mean_square, product) = (all((2.0 + h * h) / 3.0), all(h * h));
+            let corners = Corners { determinant: all(h), mean_square, product, eps_squared: None };
+            corners.energy(Weights { doublings: 0, mu: 0.5 }).distortion.to_array()[0]
+        }
+        for (h, expected) in [(1.0, 1.0), (0.125, 1.0), (0.05, 0.4103), (0.02, 0.1643)] {
+            let counts_as = 1.0 / dispatch!(level(), simd => distortion(simd, h)).sqrt();
+            assert!((counts_as - expected).abs() < 1e-3, "{h}: {counts_as}");
+        }
+    }
+
+    /// The energy of a cube's corner with so long edges, its distortion and n times both parts, infinite where it is.
     fn cube(edge: f64, determinant: f64, eps_squared: Option<f64>, weights: Weights) -> [f64; 3] {
         #[inline(always)]
         fn corner<S: Simd>(
@@ -169,7 +195,7 @@ mod tests {
             }
             let factors = energy.factors(weights);
             let [all, angles, derived] =
-                [energy.shape + energy.angles, energy.angles_squared, factors.shape + factors.angles];
+                [energy.shape + energy.angles, energy.distortion, factors.shape + factors.angles];
             [all[3], angles[2], derived[1]]
         }
         dispatch!(level(), simd => corner(simd, edge, determinant, eps_squared, weights))

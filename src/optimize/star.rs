@@ -81,7 +81,8 @@ const WEIGHTS: [Row; LANES] =
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reading {
     pub(crate) energy: f64,
-    /// The greatest r^2 of the corners that change: of the worst, one over the scaled Jacobian's square without eps.
+    /// The greatest distortion of the corners that change: of the worst, one over the scaled Jacobian's square without eps,
+    /// if it is not flat.
     pub(crate) worst: f64,
 }
 
@@ -134,8 +135,8 @@ impl Star {
         dispatch!(self.level, simd => read(simd, self, v, weights, limit))
     }
 
-    /// The energy and its derivatives with the node at `v`, and the worst r^2 as in [`Reading`]; `None` where the
-    /// energy is infinite.
+    /// The energy and its derivatives with the node at `v`, and the worst distortion as in [`Reading`]; `None` where
+    /// the energy is infinite.
     pub(crate) fn expand(&self, v: Point, weights: Weights) -> Option<(Expansion, f64)> {
         dispatch!(self.level, simd => expanded(simd, self, v, weights))
     }
@@ -259,7 +260,7 @@ fn taken<S: Simd>(
 struct Sums<S: Simd> {
     are_finite: mask64x4<S>,
     energy: f64x4<S>,
-    /// The greatest r^2.
+    /// The greatest distortion.
     worst: f64x4<S>,
 }
 
@@ -274,7 +275,7 @@ impl<S: Simd> Sums<S> {
     fn add(&mut self, energy: &Energy<S>, weight: f64x4<S>) {
         self.are_finite &= energy.is_finite;
         self.energy += (energy.shape + energy.angles) * weight;
-        self.worst = self.worst.greater(energy.angles_squared);
+        self.worst = self.worst.greater(energy.distortion);
     }
 
     /// What was read, if the energy is finite.

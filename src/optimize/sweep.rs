@@ -40,8 +40,8 @@ pub(crate) struct Rules<'a> {
     pub(crate) weights: Weights,
     /// Of chi, in units of the cells' volumes.
     pub(crate) eps: f64,
-    /// The least scaled Jacobian around a node may fall, but not below this; any, where there is none. Positive cells
-    /// stay positive where there is one.
+    /// The least scaled Jacobian around a node may fall, but not below this, and flat cells count as if theirs were less
+    /// (`energy`); any, where there is none. Positive cells stay positive where there is one.
     pub(crate) floor: Option<f64>,
     /// A step below this share of the node's mean edge wakes no neighbours.
     pub(crate) asleep: f64,
@@ -191,8 +191,9 @@ fn relaxed(problem: &Problem, node: u32, rules: Rules, star: &mut Star) -> Optio
     Some(Step { to, far: to.distance(from) > rules.asleep * size })
 }
 
-/// The greatest r^2 that a node's corners may have, of which the greatest is `worst`: the scaled Jacobian may fall, but
-/// not below the floor. A little less than that, so that no rounding lowers the worst of all.
+/// The greatest distortion that a node's corners may have, of which the greatest is `worst`: the scaled Jacobian may fall,
+/// but not below the floor, nor may corners get flatter than those of that scaled Jacobian count. A little less than that,
+/// so that no rounding lowers the worst of all.
 pub(crate) fn worst_kept(worst: f64, floor: f64) -> f64 {
     let at_floor = if floor > 0.0 { 1.0 / (floor * floor) } else { f64::INFINITY };
     worst.max(at_floor) * (1.0 - 1e-12)
@@ -235,8 +236,52 @@ fn newton(energy: Expansion, tangent: Symmetric, size: f64) -> Option<Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Silent;
     use crate::geometry::Aabb;
-    use crate::mesh::{GridOptions, hex_grid};
+    use crate::mesh::quality::aspect;
+    use crate::mesh::{GridOptions, NodeId, hex_grid};
+
+    /// Draws all nodes to the plane z = 0.
+    struct ToPlane;
+
+    impl Guide for ToPlane {
+        fn tangent(&self, _: NodeId, _: Point) -> Symmetric {
+            Symmetric::IDENTITY
+        }
+
+        fn project(&self, _: NodeId, p: Point) -> Point {
+            p
+        }
+
+        fn pull(&self, _: NodeId, p: Point, _: f64) -> Option<Pull> {
+            Some(Pull { to: Point::new(p.x, p.y, 0.0), weight: Symmetric::IDENTITY * 100.0 })
+        }
+    }
+
+    /// Of two layers of cubes the nodes between are drawn to the bottom, with an energy that sees angles alone: those stay
+    /// right, however flat the lower layer gets.
+    #[test]
+    fn cells_get_no_flatter_than_the_floor_allows() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 100 };
+        let mesh = hex_grid(Aabb { min: Point::ZERO, max: Point::new(3.0, 3.0, 2.0) }, &options).unwrap();
+        let flattest = |floor: Option<f64>| {
+            let is_between = |n: NodeId| mesh.positions[n.index()].z == 1.0;
+            let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &is_between);
+            let weights = Weights { doublings: 0, mu: 1.0 };
+            let rules = Rules { guide: &ToPlane, weights, eps: 0.0, floor, asleep: ASLEEP };
+            for _ in 0..40 {
+                let mut awake = vec![true; problem.movable()];
+                sweep(&mut problem, rules, &awake.clone(), &mut awake, &Silent).unwrap();
+            }
+            (0..problem.cells.len()).map(|cell| aspect(&problem.corners(cell))).fold(0.0, f64::max)
+        };
+        // The scaled Jacobian that a box 1 by 1 by h counts as is 8.2 h.
+        for (floor, allowed) in
+            [(None, 100.0..f64::INFINITY), (Some(0.2), 30.0..42.0), (Some(0.4), 15.0..21.0)]
+        {
+            assert!(allowed.contains(&flattest(floor)), "{floor:?}: {}", flattest(floor));
+        }
+    }
 
     #[test]
     fn a_block_has_so_many_nodes_that_are_awake() {
