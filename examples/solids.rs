@@ -18,6 +18,7 @@ use std::time::Instant;
 use hexmill::Silent;
 use hexmill::hexing::{AttemptReport, Background, BodyReport, HexingOptions, ResultReport, hex_solid};
 use hexmill::io::{Format, read};
+use hexmill::mesh::quality::aspect;
 use hexmill::mesh::{PolygonMesh, check_hexes};
 
 /// The command line's allocator. `wasm-pack test` builds every example for the web, where there is none.
@@ -73,9 +74,9 @@ struct Table {
 impl Table {
     fn new() -> Result<Self, Failure> {
         println!(
-            "| solid | hexes | worst | mean | distance, % | Euler | curves | surfaces | tries | seconds |"
+            "| solid | hexes | worst | mean | aspect | distance, % | Euler | curves | surfaces | tries | seconds |"
         );
-        println!("|---|---|---|---|---|---|---|---|---|---|");
+        println!("|---|---|---|---|---|---|---|---|---|---|---|");
         Ok(Self { pool: rayon::ThreadPoolBuilder::new().num_threads(1).build()?, failed: 0 })
     }
 
@@ -102,10 +103,12 @@ fn cells_of_row(surface: &PolygonMesh, cells: f64) -> Result<Vec<String>, Failur
     }
     let made = hexed.report.result();
     let (curves, surfaces) = (made.features.curves, made.features.surfaces);
+    let aspects = hexed.mesh.hexes.iter().map(|hex| aspect(&hex.map(|n| hexed.mesh.positions[n.index()])));
     Ok(vec![
         made.hexes.to_string(),
         format!("{:.3}", made.worst),
         format!("{:.3}", made.mean),
+        format!("{:.0}", aspects.fold(1.0, f64::max)),
         format!("{:.3}", 100.0 * made.distance.hausdorff() / (bounds.max - bounds.min).length()),
         euler(made),
         format!("{} of {}", curves.captured, curves.found),

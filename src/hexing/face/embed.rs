@@ -80,6 +80,12 @@ impl Embedding {
 
     /// Lays a curve of at least two points; closed if the last one is the first. Returns whether something of it was new.
     pub(super) fn lay(&mut self, curve: &[DVec2]) -> bool {
+        // Between a point and itself no turn would be seen.
+        let mut curve = curve.to_vec();
+        curve.dedup();
+        if curve.len() < 2 {
+            return false;
+        }
         let mut new = false;
         let mut first = 0;
         let mut turned = 0.0;
@@ -312,4 +318,30 @@ fn cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
 
 fn bin(p: DVec2) -> [i32; 2] {
     [p.x.floor() as i32, p.y.floor() as i32]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A circle seen from its side: it turns back at both ends, in a point and in two that fall together.
+    #[test]
+    fn a_curve_that_turns_back_is_laid_once() {
+        let curve = [0.5, 0.0, 0.5, 1.0, 1.0, 0.5].map(|x| DVec2::new(x, 2.0 * x));
+        let mut embedding = Embedding::new(Graph::default(), TOLERANCE);
+        assert!(embedding.lay(&curve));
+        let Graph { points, segments, .. } = embedding.graph;
+        for (k, point) in points.iter().enumerate() {
+            assert!(points[..k].iter().all(|other| other.distance(*point) > TOLERANCE), "{points:?}");
+        }
+        let length: f64 =
+            segments.iter().map(|s| points[s.ends[0] as usize].distance(points[s.ends[1] as usize])).sum();
+        assert!((length - 5f64.sqrt()).abs() < 1e-12, "{segments:?}");
+    }
+
+    #[test]
+    fn a_curve_of_one_point_is_none() {
+        let mut embedding = Embedding::new(Graph::default(), TOLERANCE);
+        assert!(!embedding.lay(&[DVec2::ONE; 3]) && embedding.graph.points.is_empty());
+    }
 }

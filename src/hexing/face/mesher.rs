@@ -1,6 +1,7 @@
 //! The stages of the planar mesher, on a graph of curves in units of 2h.
 
 use std::collections::HashSet;
+use std::ops::Range;
 
 use glam::DVec2;
 
@@ -190,9 +191,16 @@ fn triangulate(
     monitor: &dyn Monitor,
 ) -> Result<(Triangles, Constrained), FaceError> {
     let mut triangulation = Triangulation::new();
-    for &point in &points[..samples.coarse] {
-        triangulation.insert(point, monitor)?;
-    }
+    let insert = |triangulation: &mut Triangulation, places: Range<usize>| {
+        for k in places {
+            // Points that fall together have one number: those after them would have others than here.
+            if triangulation.insert(points[k], monitor)? as usize != k {
+                return Err(FaceError::TooClose);
+            }
+        }
+        Ok(())
+    };
+    insert(&mut triangulation, 0..samples.coarse)?;
     let mut outline = HashSet::new();
     for segment in &samples.segments {
         let [a, b] = segment.ends;
@@ -203,9 +211,7 @@ fn triangulate(
             outline.insert([a.min(b), a.max(b)]);
         }
     }
-    for &point in &points[samples.coarse..] {
-        triangulation.insert(point, monitor)?;
-    }
+    insert(&mut triangulation, samples.coarse..points.len())?;
     let inside = triangulation.inside(|edge| outline.contains(&edge));
     let triangles = triangulation.triangles(&inside);
     Ok((triangles, Constrained { triangulation, inside }))
