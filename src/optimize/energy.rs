@@ -4,11 +4,11 @@
 //! positive for inverted corners too:
 //!
 //! ```text
-//! shape      f = (|a|^2 + |b|^2 + |c|^2) / (3 chi^(2/3))     1 where a, b, c are equally long and perpendicular
-//! angles     r = |a| |b| |c| / chi                           1 / scaled Jacobian where eps is 0
-//! energy     (1 - mu) f^(3n) + mu r^(2n)                     n a power of two, or a half
-//! lengths    s = mean of the squares^3 / product of the squares   1 where a, b, c are equally long; f^3 = s r^2
-//! distortion the greater of r^2 and s / 20                  what no step raises beyond what is kept
+//! shape       f = (|a|^2 + |b|^2 + |c|^2) / (3 chi^(2/3))                1 where a, b, c are equally long and perpendicular
+//! angles      r = |a| |b| |c| / chi                                      1 / scaled Jacobian where eps is 0
+//! energy      (1 - mu) f^(3n) + mu r^(2n)                                n a power of two, or a half
+//! lengths     s = (|a|^2 + |b|^2 + |c|^2)^3 / (27 |a|^2 |b|^2 |c|^2)     1 where a, b, c are equally long
+//! distortion  the greater of r^2 and s / 20                              what no step raises beyond what is kept
 //! ```
 //!
 //! Angles do not see flat cells: a box with edges 1, 1 and h has a scaled Jacobian of 1 for any h. As the distortion has it,

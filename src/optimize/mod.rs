@@ -9,7 +9,9 @@
 //! 4. `smooth`: shape first, then more and more the worst corners alone.
 //!
 //! Promises: in smoothing no cell stops being positive (at its corners, and inside by Bernstein's bound), the worst scaled
-//! Jacobian never falls, and no cell gets so flat that it counts as a worse one (`energy`). Nodes that are not movable do not move. The same bytes for any number of threads. Time is linear in the cells around movable nodes, but for one pass over all hexes.
+//! Jacobian never falls, and no cell gets so flat that it counts as a worse one (`energy`). Nodes that are not movable do not
+//! move. The same bytes for any number of threads. Time is linear in the cells around movable nodes, but for one pass over all
+//! hexes.
 //!
 //! Refuses nothing: cells that stay inverted are listed in the report, for the caller to repair.
 
