@@ -78,7 +78,8 @@ impl Embedding {
         embedding
     }
 
-    /// Lays a curve of at least two points; closed if the last one is the first. Returns whether something of it was new.
+    /// Lays a curve; closed if the last point is the first. Points one after another that fall together count once, and one
+    /// alone is no curve. Returns whether something of it was new.
     pub(super) fn lay(&mut self, curve: &[DVec2]) -> bool {
         // Between a point and itself no turn would be seen.
         let mut curve = curve.to_vec();

@@ -20,8 +20,8 @@
 //!    each other, so that meshes can be held against each other before it, and only the one that is kept needs it.
 //!
 //! Positive here means at the corners and, by Bernstein's bound, in all of the inside. Flat cells count as bad ones, whatever
-//! their angles, in each step that keeps cells good: of two nodes with one and the same foot only one gets there. What could
-//! not be reached stays off the solid and is reported with its distance.
+//! their angles, in each step that keeps cells better than a floor; two nodes with one and the same foot hold each other off
+//! there. What could not be reached stays off the solid and is reported with its distance.
 //!
 //! **Departure from the paper.** It projects first and then moves each bad node to the best place of a box around it;
 //! that leaves cells inverted. Here cells are positive first, and stay so.
