@@ -10,23 +10,27 @@ import { Failure, execute, must, root, which } from './shell.mjs';
 const WASM = ['--target', 'wasm32-unknown-unknown', '--no-default-features'];
 const DENY = ['--', '-D', 'warnings'];
 
+/** Steps that test nothing, and keep one core busy for most of their time, run in these lanes beside each other. */
+export const LANES = ['check', 'build'];
+
 /**
- * A step: its name, the steps whose products it needs, and `run({ log, say })`, which logs to the file `log`,
- * resolves to `{ passed, failed }`, and may throw a `Failure`.
+ * A step: its name, its lane if it has one, the steps whose products it needs, and `run({ log, say })`, which logs to the
+ * file `log`, resolves to `{ passed, failed }`, and may throw a `Failure`.
  */
 export const STEPS = [
-  { name: 'fmt', run: one((options) => must('cargo', ['fmt', '--check'], options)) },
+  { name: 'fmt', lane: 'check', run: one((options) => must('cargo', ['fmt', '--check'], options)) },
   {
     name: 'clippy',
+    lane: 'check',
     run: one((options) => must('cargo', ['clippy', '--all-targets', ...DENY], options)),
   },
-  { name: 'clippy-wasm', run: one(clippyWasm) },
-  { name: 'doc', run: one(documentation) },
+  { name: 'clippy-wasm', lane: 'check', run: one(clippyWasm) },
+  { name: 'doc', lane: 'check', run: one(documentation) },
+  { name: 'build', lane: 'build', run: one(published) },
+  { name: 'types', needs: ['build'], run: one(types) },
   { name: 'native', run: native },
   { name: 'doctest', run: (context) => counted('cargo', ['test', '--doc'], context) },
   { name: 'wasm', run: wasm },
-  { name: 'build', run: one(published) },
-  { name: 'types', needs: ['build'], run: one(types) },
   { name: 'unit', needs: ['build'], run: (context) => vitest('unit', context) },
   { name: 'package', needs: ['build'], run: (context) => vitest('package', context) },
   { name: 'e2e', needs: ['build'], run: (context) => vitest('e2e', context) },
@@ -41,7 +45,8 @@ function one(work) {
 }
 
 async function clippyWasm(options) {
-  for (const features of ['quads', 'hexes', 'solids', 'quads,hexes,solids,threads', 'viewer']) {
+  // Each module's own features, one by one, are those of the build, which takes no warnings either.
+  for (const features of ['quads,hexes,solids', 'quads,hexes,solids,threads', 'viewer']) {
     await must('cargo', ['clippy', '--lib', ...WASM, '--features', features, ...DENY], options);
   }
   await must('cargo', ['clippy', '--test', 'wasm', ...WASM, ...DENY], options);
@@ -70,6 +75,8 @@ function wasm(context) {
 
 async function published(options, { say }) {
   for (const line of await build(options)) say(line);
+  const warning = readFileSync(options.log, 'utf8').match(/^warning: `hexmill` .*$/m);
+  if (warning) throw new Failure(`A module was built with warnings: ${warning[0]}`);
 }
 
 async function types(options) {

@@ -1,4 +1,5 @@
-// Runs everything that can go wrong, step by step, and ends with one line: N passed, N failed.
+// Runs everything that can go wrong, step by step, and ends with one line: N passed, N failed. What is only checked or
+// built comes first, in lanes beside each other; tests have the machine for themselves.
 //
 //     npm test                          all steps
 //     npm test -- --only clippy,unit    some of them, with what they need
@@ -9,7 +10,7 @@ import { join } from 'node:path';
 
 import { setup } from './setup.mjs';
 import { Failure, main, root } from './shell.mjs';
-import { STEPS } from './steps.mjs';
+import { LANES, STEPS } from './steps.mjs';
 
 const LOGS = join(root, 'target', 'test-logs');
 
@@ -26,13 +27,17 @@ await main(async (args) => {
   mkdirSync(LOGS, { recursive: true });
   const total = { passed: 0, failed: 0 };
   const broken = new Set();
-  for (const step of steps) {
-    const missing = step.needs?.find((name) => broken.has(name));
-    const { passed, failed } = missing ? skipped(step, missing) : await runStep(step);
-    total.passed += passed;
-    total.failed += failed;
-    if (failed > 0) broken.add(step.name);
-  }
+  const runInTurn = async (steps) => {
+    for (const step of steps) {
+      const missing = step.needs?.find((name) => broken.has(name));
+      const { passed, failed } = missing ? skipped(step, missing) : await runStep(step);
+      total.passed += passed;
+      total.failed += failed;
+      if (failed > 0) broken.add(step.name);
+    }
+  };
+  await Promise.all(LANES.map((lane) => runInTurn(steps.filter((step) => step.lane === lane))));
+  await runInTurn(steps.filter((step) => !step.lane));
   console.log(`${total.passed} passed, ${total.failed} failed`);
   if (total.failed > 0) process.exitCode = 1;
 });
@@ -63,7 +68,7 @@ async function runStep({ name, run }) {
   const remarks = [];
   let trouble = null;
   let counts = { passed: 0, failed: 1 };
-  process.stdout.write(`${name.padEnd(12)} `);
+  console.log(`${name.padEnd(12)} starts`);
   try {
     counts = await run({ log, say: (line) => remarks.push(line) });
   } catch (error) {
@@ -71,7 +76,8 @@ async function runStep({ name, run }) {
   }
   const seconds = ((performance.now() - start) / 1000).toFixed(1);
   const verdict = counts.failed > 0 ? 'FAILED' : 'ok';
-  console.log(`${verdict.padEnd(6)} ${seconds.padStart(7)} s   ${counts.passed} passed, ${counts.failed} failed`);
+  const counted = `${counts.passed} passed, ${counts.failed} failed`;
+  console.log(`${name.padEnd(12)} ${verdict.padEnd(6)} ${seconds.padStart(7)} s   ${counted}`);
   for (const line of remarks) console.log(`    ${line}`);
   if (counts.failed > 0) explain(name, log, trouble);
   return counts;

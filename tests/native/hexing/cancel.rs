@@ -25,8 +25,8 @@ impl Monitor for StopsAt {
 #[test]
 fn work_that_is_stopped_anywhere_ends_as_cancelled() {
     for (part, background) in [
-        (random_part(1), Background::Auto),
-        (random_part(1), Background::Octree),
+        (random_part(2), Background::Auto),
+        (random_part(2), Background::Octree),
         (step(), Background::Swept),
     ] {
         let bounds = part.bounds();

@@ -185,7 +185,7 @@ impl Monitor for StopAt {
 
 #[test]
 fn work_can_be_cancelled_anywhere() {
-    let (input, options) = (grid(6, 6), ball([3.0, 3.0, 0.0], 1.0, 6));
+    let (input, options) = (grid(6, 6), ball([3.0, 3.0, 0.0], 1.0, 3));
     let mut stopped = 0;
     for call in 0.. {
         match refine_quads(&input, &options, &StopAt::call(call)) {
@@ -196,7 +196,7 @@ fn work_can_be_cancelled_anywhere() {
             Ok(_) => break,
         }
     }
-    assert!(stopped > 10, "asked only {stopped} times");
+    assert!(stopped > 1000, "asked only {stopped} times");
 }
 
 #[test]
