@@ -3,6 +3,7 @@
 use glam::DVec2;
 use proptest::prelude::*;
 
+use super::graph::{Graph, Segment};
 use super::*;
 use crate::geometry::Point;
 use crate::mesh::{NodeId, QuadMesh, check_quads};
@@ -212,6 +213,23 @@ fn what_cannot_be_meshed_is_refused() {
     let mut broken = square;
     broken.points[2].x = f64::NAN;
     assert_eq!(code(&broken, 0.1), "region-not-finite");
+}
+
+/// Two squares that nearly meet in a corner each, or do, and each with a node of its own there.
+#[test]
+fn nodes_at_one_place_are_too_close() {
+    let mesh = |gap: f64| {
+        let mut graph = Graph::default();
+        for corner in [0.0, 4.0 + gap] {
+            let square = rectangle([corner; 2], [corner + 4.0; 2]);
+            let nodes: Vec<u32> = square.into_iter().map(|point| graph.add(point, true)).collect();
+            let ends = (0..4).map(|k| [nodes[k], nodes[(k + 1) % 4]]);
+            graph.segments.extend(ends.map(|ends| Segment { ends, outline: true }));
+        }
+        mesher::mesh(&graph, 32.0, &Silent)
+    };
+    assert_eq!(mesh(0.5).unwrap().cells.len(), 128);
+    assert!(matches!(mesh(0.0), Err(FaceError::TooClose)));
 }
 
 /// Says stop after so many questions.
