@@ -10,12 +10,10 @@ import { Failure, execute, must, root, which } from './shell.mjs';
 const WASM = ['--target', 'wasm32-unknown-unknown', '--no-default-features'];
 const DENY = ['--', '-D', 'warnings'];
 
-/** Steps that test nothing, and keep one core busy for most of their time, run in these lanes beside each other. */
-export const LANES = ['check', 'build'];
-
 /**
  * A step: its name, its lane if it has one, the steps whose products it needs, and `run({ log, say })`, which logs to the
- * file `log`, resolves to `{ passed, failed }`, and may throw a `Failure`.
+ * file `log`, resolves to `{ passed, failed }`, and may throw a `Failure`. Steps in lanes test nothing, keep one core busy for
+ * most of their time, and need none of another lane: lanes run beside each other, before all else.
  */
 export const STEPS = [
   { name: 'fmt', lane: 'check', run: one((options) => must('cargo', ['fmt', '--check'], options)) },

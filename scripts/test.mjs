@@ -10,7 +10,7 @@ import { join } from 'node:path';
 
 import { setup } from './setup.mjs';
 import { Failure, main, root } from './shell.mjs';
-import { LANES, STEPS } from './steps.mjs';
+import { STEPS } from './steps.mjs';
 
 const LOGS = join(root, 'target', 'test-logs');
 
@@ -27,8 +27,8 @@ await main(async (args) => {
   mkdirSync(LOGS, { recursive: true });
   const total = { passed: 0, failed: 0 };
   const broken = new Set();
-  const runInTurn = async (steps) => {
-    for (const step of steps) {
+  const runLane = async (lane) => {
+    for (const step of steps.filter((step) => step.lane === lane)) {
       const missing = step.needs?.find((name) => broken.has(name));
       const { passed, failed } = missing ? skipped(step, missing) : await runStep(step);
       total.passed += passed;
@@ -36,8 +36,10 @@ await main(async (args) => {
       if (failed > 0) broken.add(step.name);
     }
   };
-  await Promise.all(LANES.map((lane) => runInTurn(steps.filter((step) => step.lane === lane))));
-  await runInTurn(steps.filter((step) => !step.lane));
+  const lanes = new Set(steps.map(({ lane }) => lane));
+  lanes.delete(undefined);
+  await Promise.all([...lanes].map(runLane));
+  await runLane(undefined);
   console.log(`${total.passed} passed, ${total.failed} failed`);
   if (total.failed > 0) process.exitCode = 1;
 });
