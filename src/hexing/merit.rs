@@ -6,7 +6,7 @@
 //!
 //! | what | as |
 //! |---|---|
-//! | how far mesh and solid are from each other | edges, twice |
+//! | how far mesh and solid are from each other | edges, twice; beyond the distance allowed, in units of that |
 //! | curves and surfaces that are lost | share of all; half of it on free forms |
 //! | the mean scaled Jacobian | what it lacks to 1, four times, and to [`FAIR`], ten times |
 //! | the least scaled Jacobian | twice the share of a good one that it lacks, and [`FAULT`] if it lacks any |
@@ -149,8 +149,10 @@ pub(super) fn is_better(a: &AttemptReport, b: &AttemptReport, options: &HexingOp
 
 fn cost(report: &AttemptReport, options: &HexingOptions, taste: Taste) -> f64 {
     let Some(mesh) = &report.mesh else { return f64::INFINITY };
+    let allowed = options.max_distance.filter(|_| is_far(report, options));
+    let unit = allowed.unwrap_or(options.edge_length);
     let lacking = (taste.good - mesh.worst).max(0.0) / taste.good;
-    APART * distance(report) / options.edge_length
+    APART * distance(report) / unit
         + taste.lost * lost(report.features.as_ref())
         + MEAN * (1.0 - mesh.mean)
         + UNFAIR * (FAIR - mesh.mean).max(0.0)
@@ -269,6 +271,17 @@ mod tests {
             is_better(&near, &far, &allowed, Taste::DRAWN)
                 && is_better(&far, &near, &options(), Taste::DRAWN)
         );
+    }
+
+    /// Smaller cells that bring a mesh on the way there are worth a poorer mean, as long as it is too far, and only then.
+    #[test]
+    fn beyond_the_distance_allowed_the_nearer_is_better() {
+        let (near, far) = (attempt(2, 0, 0.3, 0.39, 0.9), attempt(2, 0, 0.4, 0.39, 0.95));
+        for (limit, expected) in [(None, false), (Some(0.5), false), (Some(0.35), true), (Some(0.2), true)] {
+            let allowed = HexingOptions { max_distance: limit, ..options() };
+            assert_eq!(is_better(&near, &far, &allowed, Taste::DRAWN), expected, "{limit:?}");
+            assert_eq!(is_better(&far, &near, &allowed, Taste::DRAWN), !expected, "{limit:?}");
+        }
     }
 
     #[test]
