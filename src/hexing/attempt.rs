@@ -12,7 +12,7 @@ use super::report::{AttemptReport, FeatureReport, FitCounts, MeshedReport, Sheet
 use super::separate::separate;
 use super::sheets::insert_sheets;
 use crate::geometry::Point;
-use crate::mesh::{Distances, HexMesh, NodeId, Triangles};
+use crate::mesh::{Distances, HexMesh, MeshHash, NodeId, Triangles, mesh_hash};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
@@ -99,6 +99,11 @@ pub(super) fn draft(
 }
 
 impl Draft {
+    /// Tells its core from others.
+    pub(super) fn core_hash(&self) -> MeshHash {
+        mesh_hash(&self.core.mesh.positions, &self.core.mesh.hexes)
+    }
+
     /// What it misses before it is fitted, and smaller cells may show.
     pub(super) fn failures(&self, site: &Site<'_>) -> Vec<Failure> {
         misses(site, self.kind, &self.core, &self.on.reduction, Vec::new(), &self.cells)
@@ -130,7 +135,9 @@ impl Draft {
         let (mut distance, mut failures) = look(&mesh)?;
         let is_far = |failure: &Failure| failure.missed == Missed::Far;
         let is_of_kind = off_euler(&core.report) == 0;
-        if is_of_kind && fitted.report.mean >= FAIR && !failures.is_empty() && failures.iter().all(is_far) {
+        // Unless somebody asked for the distance, smaller cells are better where many are poor.
+        let may_approach = is_of_kind && (options.max_distance.is_some() || fitted.report.mean >= FAIR);
+        if may_approach && !failures.is_empty() && failures.iter().all(is_far) {
             let before = mesh.positions.clone();
             let report = fitted.approach(&mut mesh, &on, solid, &fit_options, monitor)?;
             let now = look(&mesh)?;
@@ -229,6 +236,7 @@ mod tests {
     /// What comes of a fit to a house with such a ridge.
     struct Came {
         approached: bool,
+        mean: f64,
         /// How much it misses that smaller cells may show.
         failures: usize,
         distance: f64,
@@ -236,11 +244,16 @@ mod tests {
     }
 
     fn fitted(aside: f64, max_distance: f64) -> Came {
+        fitted_with(0.4, aside, Some(max_distance))
+    }
+
+    /// The same with other edges.
+    fn fitted_with(edge_length: f64, aside: f64, max_distance: Option<f64>) -> Came {
         let (solid, _) = house(aside);
         let options = HexingOptions {
-            edge_length: 0.4,
+            edge_length,
             background: Background::Grid,
-            max_distance: Some(max_distance),
+            max_distance,
             ..HexingOptions::default()
         };
         let site = Site::new(&solid, &options, &Silent).unwrap();
@@ -249,9 +262,9 @@ mod tests {
         let draft = draft(&site, &plan, background, None, &Silent).unwrap().ok().unwrap();
         let hearing = Hearing::default();
         let (report, _, failures) = draft.fit(&site, &hearing).unwrap();
-        let worst = report.mesh.as_ref().unwrap().worst;
+        let MeshedReport { worst, mean, .. } = *report.mesh.as_ref().unwrap();
         let approached = hearing.0.into_inner();
-        Came { approached, failures: failures.len(), distance: distance(&report), worst }
+        Came { approached, mean, failures: failures.len(), distance: distance(&report), worst }
     }
 
     #[test]
@@ -270,6 +283,14 @@ mod tests {
         assert!(!before.approached && before.failures == 0);
         assert!(after.approached && after.failures > 0);
         assert_eq!((after.distance, after.worst), (before.distance, before.worst));
+    }
+
+    /// Many cells of so coarse a mesh are poor.
+    #[test]
+    fn a_mesh_of_poor_cells_approaches_where_a_distance_is_asked_for() {
+        let [unasked, asked] = [None, Some(0.1)].map(|limit| fitted_with(0.7, 0.5, limit));
+        assert!(!unasked.approached && unasked.mean < FAIR && unasked.distance > 0.1);
+        assert!(asked.approached && asked.failures == 0 && asked.distance < 0.1);
     }
 
     #[test]

@@ -12,7 +12,7 @@
 //!    octree, and 2 for that. What shows less than half before it is fitted is not fitted before that.
 //!
 //! A mesh that misses nothing but is too far from the solid is first brought nearer with cells that are fair instead of good
-//! (`attempt`).
+//! (`attempt`), unless nobody asked for the distance and many of its cells are poor.
 //!
 //! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and
 //! how many times as large as the first another may be is bounded.

@@ -11,12 +11,15 @@ use super::merit::{Bar, captured, distance, is_better, is_far, loses_much, shows
 use super::options::HexingError;
 use super::report::{AttemptReport, RefusedAttempt};
 use crate::Monitor;
+use crate::mesh::MeshHash;
 
 /// What was tried.
 pub(super) struct Search<'a> {
     pub(super) site: &'a Site<'a>,
     pub(super) attempts: Vec<AttemptReport>,
     pub(super) refused: Vec<RefusedAttempt>,
+    /// The cores of the drafts that were gone on with.
+    cores: Vec<MeshHash>,
     pub(super) best: Option<Attempt>,
     /// Drafts that wait: each is at least about as good as those before.
     pub(super) waiting: Vec<Waiting>,
@@ -51,6 +54,7 @@ impl<'a> Search<'a> {
             site,
             attempts: Vec::new(),
             refused: Vec::new(),
+            cores: Vec::new(),
             best: None,
             waiting: Vec::new(),
             tangled: None,
@@ -59,7 +63,8 @@ impl<'a> Search<'a> {
     }
 
     /// Makes an attempt; keeps it if it is better than the best so far. A draft of another kind than the solid waits, as does
-    /// one that loses so much that smaller cells are tried first.
+    /// one that loses so much that smaller cells are tried first. Between planes of the solid there may be as many lines of a
+    /// grid as before: one with the core of another is given up.
     pub(super) fn attempt(&mut self, plan: Plan, max_hexes: u64) -> Result<(), HexingError> {
         let number = self.attempts.len();
         let draft = match self.draft(&plan, max_hexes, self.bar())? {
@@ -70,6 +75,11 @@ impl<'a> Search<'a> {
             }
         };
         self.attempts.push(draft.report.clone());
+        let core = draft.core_hash();
+        if plan.shift != [0.0; 3] && self.cores.contains(&core) {
+            return Ok(());
+        }
+        self.cores.push(core);
         let failures = draft.failures(self.site);
         let is_of_kind = off_euler(&draft.report.core) == 0;
         let has_rival = self.best.is_some() && !self.waits();
@@ -224,5 +234,33 @@ impl<'a> Search<'a> {
             let is_near = !is_far(best, self.site.options);
             off_euler(&best.core) == 0 && is_near && worst(best) >= self.site.taste.good
         })
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::super::options::HexingOptions;
+    use super::*;
+    use crate::Silent;
+    use crate::geometry::Point;
+    use crate::solid::testing::{cuboid, moved, solid};
+
+    /// Between a cube's planes there are as many lines with either shift; a ball has no planes.
+    #[test]
+    fn a_grid_that_cannot_stand_elsewhere_is_fitted_once() {
+        let cube = cuboid([6, 6, 6]);
+        let ball = moved(cube.clone(), |p| (p - Point::splat(3.0)).normalize() * 3.0);
+        for (surface, expected) in [(cube, [true, false]), (ball, [true, true])] {
+            let options =
+                HexingOptions { edge_length: 1.0, background: Background::Grid, ..HexingOptions::default() };
+            let solid = solid(&surface);
+            let site = Site::new(&solid, &options, &Silent).unwrap();
+            let mut search = Search::new(&site, &Silent);
+            for shift in [[0.3; 3], [0.4; 3]] {
+                search.another(Plan { shift, ..site.plan(Background::Grid) }, u64::MAX).unwrap();
+            }
+            let is_fitted: Vec<bool> = search.attempts.iter().map(|attempt| attempt.mesh.is_some()).collect();
+            assert_eq!(is_fitted, expected);
+        }
     }
 }
