@@ -19,7 +19,7 @@ use super::groups::{body_tags, sides_of, surface_groups};
 use super::options::{HexingError, HexingOptions, validate};
 use super::report::{BodyReport, HexingReport, LostFeature, ResultReport};
 use super::second_order::SecondOrderBodies;
-use crate::mesh::{HexMesh, NodeId, PolygonMesh, SecondOrder, SecondOrderHex};
+use crate::mesh::{HexMesh, NodeId, PolygonMesh, SecondOrder};
 use crate::solid::{CurveId, SolidModel, SolidReport, SurfaceId};
 use crate::{Cancelled, Monitor, Stage};
 
@@ -85,7 +85,7 @@ fn hexed(
     monitor: &dyn Monitor,
 ) -> Result<HexedSolid, HexingError> {
     check_size(solid, coarsest(options), options.max_hexes)?;
-    let mut whole = Whole::new(options.second_order);
+    let mut whole = Whole::new(options);
     if solid.body_count() == 1 {
         let all = |count: usize| 0..count as u32;
         let (curves, surfaces) = (all(solid.curves().len()), all(solid.surfaces().len()));
@@ -134,14 +134,14 @@ struct Whole {
 }
 
 impl Whole {
-    fn new(second_order: Option<SecondOrderHex>) -> Self {
+    fn new(options: &HexingOptions) -> Self {
         Self {
             mesh: HexMesh::default(),
             faces: Vec::new(),
             body_of: Vec::new(),
             bodies: Vec::new(),
-            result: ResultReport::none(),
-            second_order: second_order.map(SecondOrderBodies::new),
+            result: ResultReport::none(options.max_distance),
+            second_order: options.second_order.map(SecondOrderBodies::new),
         }
     }
 

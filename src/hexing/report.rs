@@ -120,6 +120,8 @@ pub struct ResultReport {
     pub mean: f64,
     /// How far the mesh's boundary and the solid's are from each other.
     pub distance: Distances,
+    /// How far they were to be at most, if that was asked for, in model units.
+    pub max_distance: Option<f64>,
 }
 
 /// How many of one kind of feature the solid has, and what became of them.
@@ -221,8 +223,13 @@ impl ResultReport {
         self.euler == self.solid_euler
     }
 
+    /// Are mesh and solid farther from each other than was asked for?
+    pub fn is_too_far(&self) -> bool {
+        self.max_distance.is_some_and(|limit| self.distance.hausdorff() > limit)
+    }
+
     /// That of no body yet.
-    pub(super) fn none() -> Self {
+    pub(super) fn none(max_distance: Option<f64>) -> Self {
         Self {
             euler: 0,
             solid_euler: 0,
@@ -232,6 +239,7 @@ impl ResultReport {
             worst: f64::INFINITY,
             mean: 0.0,
             distance: Distances::none(),
+            max_distance,
         }
     }
 

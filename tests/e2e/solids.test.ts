@@ -120,6 +120,29 @@ test('what the mesh does not show is listed and drawn', async () => {
   expect(await bench.difference(picture, await bench.picture())).toBeGreaterThan(0.1);
 });
 
+test('whether a mesh is as near as was asked for is told', async () => {
+  const { page } = bench;
+  const near = page.locator('[data-near]');
+  expect(await near.count()).toBe(0);
+  const further = page.locator('details', { hasText: 'Background, nodes and limits' });
+  await further.evaluate((details) => details.setAttribute('open', ''));
+  await page.getByLabel('Hold to a distance').check();
+  await bench.fill('Levels to spare', '0');
+  for (const [limit, isNear] of [['0.01', 'false'], ['3', 'true']] as const) {
+    await bench.fill('From the surface, at most, model units', limit);
+    await bench.estimate();
+    await bench.mesh();
+    expect(await near.getAttribute('data-near')).toBe(isNear);
+    expect(await near.innerText()).toContain(`${limit} asked for`);
+    if (isNear === 'true') continue;
+    await near.scrollIntoViewIfNeeded();
+    await seen('too-far');
+    const picture = await bench.picture();
+    await near.locator('button').click();
+    expect(await bench.difference(picture, await bench.picture())).toBeGreaterThan(0.1);
+  }
+});
+
 test('an open surface is refused with its place', async () => {
   await bench.open('open.obj', HOUSE.replace(/^f .*\n/m, ''));
   await bench.choice('Make', 'Hexes in it').check();

@@ -196,6 +196,8 @@ export interface SolidResult {
   /** The mean scaled Jacobian. */
   mean: number;
   distance: SurfaceDistances;
+  /** The `maxDistance` that was asked for; where the greatest of `distance` is more, there was no such mesh among those tried. */
+  maxDistance: number | null;
 }
 
 /** Between a mesh's boundary and a surface, both ways. */

@@ -161,6 +161,40 @@ fn a_body_that_is_too_thin_is_told_where_there_are_others() {
     assert!(stdout.contains("1 body was lost, since no hex lies within it, the largest at 3.01"), "{stdout}");
 }
 
+/// Two polygons of 24 sides, and what is between them: a drum.
+fn drum() -> String {
+    let angles = (0..24).map(|k| f64::from(k) / 24.0 * std::f64::consts::TAU);
+    let ring = |z: f64| angles.clone().map(move |a| format!("v {} {} {z}\n", a.cos(), a.sin()));
+    let walls = (1..=24).map(|k| {
+        let next = k % 24 + 1;
+        format!("f {k} {next} {} {}\n", next + 24, k + 24)
+    });
+    let [bottom, top] = [(1..=24).rev().collect::<Vec<_>>(), (25..=48).collect()].map(|ring: Vec<i32>| {
+        let nodes: Vec<String> = ring.iter().map(i32::to_string).collect();
+        format!("f {}\n", nodes.join(" "))
+    });
+    ring(0.0).chain(ring(1.0)).chain(walls).chain([bottom, top]).collect()
+}
+
+#[test]
+fn a_mesh_that_is_farther_than_was_asked_for_is_told() {
+    let folder = folder_holding("drum.obj", &drum());
+    let arguments =
+        ["hex", "drum.obj", "-o", "drum.vtu", "-e", "0.5", "--max-levels", "0", "--report", "r.json"];
+    for (limit, is_too_far) in [(None, false), (Some("0.2"), false), (Some("0.001"), true)] {
+        let asked = limit.map_or(vec![], |limit| vec!["--max-distance", limit]);
+        let stdout = succeed(&folder, &[&arguments[..], &asked].concat());
+        let told = stdout.contains("that is more than the 0.001 asked for: lower the edge length");
+        assert_eq!(told, is_too_far, "{stdout}");
+        let result = json(&folder, "r.json")["hexing"]["result"].take();
+        assert_eq!(result["maxDistance"], json!(limit.map(|limit| limit.parse::<f64>().unwrap())));
+        assert!(
+            (0.001..0.2).contains(&result["distance"]["surfaceToMesh"]["max"].as_f64().unwrap()),
+            "{result}"
+        );
+    }
+}
+
 #[test]
 fn backgrounds_and_regions_are_as_they_were_asked_for() {
     let folder = folder_holding("cube.obj", CUBE);

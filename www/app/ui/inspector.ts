@@ -24,7 +24,7 @@ export function inspector(page: Page): TemplateResult {
   return html`
     ${figures(result)}
     ${isHexes(result.mesh) ? cutPanel(page) : nothing}
-    ${isSolid(result.mesh) ? html`${featurePanel(page, result.mesh)}${distancePanel(page, result.mesh)}${secondOrderPanel(page, result.mesh, result.settings)}` : nothing}
+    ${isSolid(result.mesh) ? html`${featurePanel(page, result.mesh)}${distancePanel(page, result.mesh, result.settings)}${secondOrderPanel(page, result.mesh, result.settings)}` : nothing}
     ${certificate(page, result)}
     <section aria-labelledby="colour-title">
       <h2 id="colour-title">Colour</h2>

@@ -2,7 +2,7 @@
 
 import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
-import type { HexedSolid } from 'hexmill';
+import type { HexedSolid, SurfaceDistances } from 'hexmill';
 import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { lostOf } from '../model/features.js';
@@ -67,7 +67,8 @@ export function secondOrderPanel({ viewport }: Page, { report: { secondOrder: ma
 const NONE = 1e-12;
 
 /** Both ways: the mesh may be near the solid and yet miss a part of it. */
-export function distancePanel({ workbench }: Page, { result }: HexedSolid): TemplateResult {
+export function distancePanel(page: Page, { result }: HexedSolid, { solid }: Settings): TemplateResult {
+  const { workbench } = page;
   const { meshToSurface, surfaceToMesh } = result.distance;
   const bounds = workbench.bounds.value;
   const length = (bounds && diagonal(bounds)) || 1;
@@ -77,5 +78,16 @@ export function distancePanel({ workbench }: Page, { result }: HexedSolid): Temp
   return html`<section aria-labelledby="distance-title">
     <h2 id="distance-title">Distance to the input</h2>
     <dl class="facts">${rows.map(([name, value]) => html`<dt>${name}</dt><dd>${text(value)}</dd>`)}</dl>
+    ${result.maxDistance === null ? nothing : asked(page, result.distance, result.maxDistance, solid.edgeLength)}
   </section>`;
+}
+
+/** Whether a mesh is as near as was asked for. */
+function asked({ viewport }: Page, { meshToSurface, surfaceToMesh }: SurfaceDistances, limit: number, edgeLength: number): TemplateResult {
+  const { max, farthest } = meshToSurface.max > surfaceToMesh.max ? meshToSurface : surfaceToMesh;
+  const isNear = max <= limit;
+  const show = (): void => viewport.showPlace(farthest as Vec3, EDGES_AROUND * edgeLength);
+  return html`<ul class="checks" data-near=${isNear}>${isNear
+    ? html`<li class="good">${icon('check')}Within the ${significant(limit, 3)} asked for</li>`
+    : html`<li class="bad">${icon('warn')}<span><button class="text-button" type="button" title="Show the farthest" @click=${show}>Farther than the ${significant(limit, 3)} asked for</button>. Lower the edge length.</span></li>`}</ul>`;
 }

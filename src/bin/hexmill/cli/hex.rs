@@ -80,7 +80,8 @@ fn in_words(path: &Path, report: &Report) -> String {
 
 /// What was done, and what the mesh does not show.
 fn work_in_words(work: &HexingReport) -> Vec<String> {
-    let ResultReport { features, euler, solid_euler, distance, lost_bodies, .. } = work.result();
+    let result = work.result();
+    let ResultReport { features, euler, solid_euler, distance, lost_bodies, .. } = result;
     let mended = work.solid.mended();
     let mut lines = Vec::new();
     if !mended.is_empty() {
@@ -111,6 +112,9 @@ fn work_in_words(work: &HexingReport) -> Vec<String> {
     }
     lines.push(format!("distance to the solid: {}", distance.mesh_to_surface.in_words()));
     lines.push(format!("distance from the solid: {}", distance.surface_to_mesh.in_words()));
+    if let Some(asked) = result.max_distance.filter(|_| result.is_too_far()) {
+        lines.push(format!("that is more than the {asked} asked for: lower the edge length"));
+    }
     if let Some(SecondOrderReport { nodes, on_solid, yielded, .. }) = work.second_order {
         lines.push(format!(
             "{nodes} nodes beside the corners, {on_solid} of them on the solid, {yielded} off it for the sake of their hexes"
