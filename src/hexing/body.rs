@@ -32,6 +32,9 @@ const SHIFTS: [[f64; 3]; 2] = [[0.5; 3], [0.25, 0.5, 0.75]];
 /// The background of another try has at most so many times the hexes of the first of its kind.
 const GROWTH: f64 = 4.0;
 
+/// And at most so many times where a distance is asked for: once all cells at the boundary may become smaller.
+const ASKED_GROWTH: f64 = 10.0;
+
 /// And at most so many times where all that is too far from the solid has smaller cells: of a curved boundary that may be
 /// nearly everything, and whoever gives an edge length wants cells of about that.
 const FAR_GROWTH: f64 = 1.75;
@@ -165,7 +168,7 @@ impl Search<'_> {
     /// How many if all that is too far from the solid has smaller cells.
     fn limit_of_far(&self) -> u64 {
         match self.site.options.max_distance {
-            Some(_) => self.limit(),
+            Some(_) => self.grown(ASKED_GROWTH).max(FEW).min(self.site.options.max_hexes),
             None => self.grown(FAR_GROWTH).min(self.site.options.max_hexes),
         }
     }
@@ -191,13 +194,13 @@ impl Search<'_> {
         let Attempt { failures, plan, number, .. } = self.best.as_ref()?;
         let failures: Vec<Failure> = failures.iter().filter(|f| looked_at(f)).cloned().collect();
         let more = retry(&failures, self.site.edge_length(plan.kind), self.site.finest(plan.kind));
-        let has_place = !more.regions.is_empty();
+        let has_place = !more.is_empty();
         let is_wrong = off_euler(&self.attempts[*number].core) > 0;
         let details = if is_wrong && !has_place { round.max(plan.details) } else { plan.details };
         if !has_place && details == plan.details {
             return None;
         }
-        let regions = [plan.regions.as_slice(), &more.regions].concat();
+        let regions = [plan.regions.as_slice(), &more].concat();
         let in_blocks = plan.in_blocks || failures.iter().any(|failure| failure.missed == Missed::Far);
         Some(Plan { regions, details, in_blocks, ..plan.clone() })
     }

@@ -1,7 +1,7 @@
 //! How many hexes a solid will be filled with, told before the work.
 
 use super::background::{BackgroundError, estimate_hexes};
-use super::options::{HexingError, HexingOptions};
+use super::options::{HexingError, HexingOptions, validate};
 use crate::geometry::{Aabb, Point};
 use crate::mesh::{HexMesh, NodeId};
 use crate::refine::hex::HexRefineError;
@@ -17,12 +17,13 @@ const PLACES: usize = 16;
 /// Regions that overlap are counted each.
 ///
 /// # Errors
-/// If a region is out of range, or the monitor stops it.
+/// If an option or a region is out of range, or the monitor stops it.
 pub fn forecast_hexes(
     solid: &SolidModel,
     options: &HexingOptions,
     monitor: &dyn Monitor,
 ) -> Result<f64, HexingError> {
+    validate(options)?;
     let mut hexes = estimate_hexes(solid, options.edge_length);
     for region in &options.regions {
         let more = 8_f64.powi(levels(region.target, options.edge_length)) - 1.0;

@@ -21,27 +21,27 @@ pub(super) fn sides_of(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Ve
 /// A group for each surface that has one of these boundary faces, named `surface-1` for the first. The faces are 6 times
 /// the hex and the number there. `None` if they do not ascend.
 pub fn surface_groups(sides: &[(u32, SurfaceId)]) -> Option<FaceGroups> {
+    let tags = tags("surface", sides.iter().map(|(_, surface)| surface.0));
+    FaceGroups::new(sides.iter().map(|&(side, _)| side).collect(), tags)
+}
+
+/// A group of hexes for each body that has some, named `body-1` for the first, from the body of each hex.
+pub fn body_tags(body_of: &[u32]) -> Tags {
+    tags("body", body_of.iter().copied())
+}
+
+/// A group for each number that an element has, named `what` and a number more, in the order in which they come.
+fn tags(what: &str, of_element: impl Iterator<Item = u32>) -> Tags {
     let mut set_of = BTreeMap::new();
     let mut sets = Vec::new();
-    let of_element = sides.iter().map(|&(_, surface)| {
-        *set_of.entry(surface).or_insert_with(|| {
-            let number = i64::from(surface.0) + 1;
-            sets.push(named("surface", number));
+    let of_element = of_element.map(|of| {
+        *set_of.entry(of).or_insert_with(|| {
+            let number = i64::from(of) + 1;
+            let group = Group::new(format!("{what}-{number}"), number);
+            sets.push(TagSet { groups: vec![group], number: Some(number), ..TagSet::default() });
             sets.len() as u32 - 1
         })
     });
     let of_element = of_element.collect();
-    let sides = sides.iter().map(|&(side, _)| side).collect();
-    FaceGroups::new(sides, Tags { sets, of_element })
-}
-
-/// A group of hexes for each of so many bodies, named `body-1` for the first, from the body of each hex.
-pub fn body_tags(bodies: usize, body_of: Vec<u32>) -> Tags {
-    Tags { sets: (1..=bodies as i64).map(|number| named("body", number)).collect(), of_element: body_of }
-}
-
-/// The tags of a group that is named and numbered.
-fn named(what: &str, number: i64) -> TagSet {
-    let group = Group::new(format!("{what}-{number}"), number);
-    TagSet { groups: vec![group], number: Some(number), ..TagSet::default() }
+    Tags { sets, of_element }
 }

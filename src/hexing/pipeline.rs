@@ -104,7 +104,7 @@ fn hexed(
     }
     mesh.groups = surface_groups(&sides_of(&mesh, &faces)).expect("sides are ascending");
     if bodies.len() > 1 {
-        mesh.tags = body_tags(bodies.len(), body_of);
+        mesh.tags = body_tags(&body_of);
     }
     let (second_order, of_second_order) =
         second_order.map(|bodies| bodies.joined(mesh.positions.len())).unzip();

@@ -136,12 +136,11 @@ pub fn export(
         let sides: Vec<_> = sides.into_iter().map(|(side, surface)| (side, SurfaceId(surface))).collect();
         surface_groups(&sides)
     })?;
-    if let Some(&last) = bodies.iter().max() {
-        let count = last as usize + 1;
-        if bodies.len() != mesh.hexes.len() || count > mesh.hexes.len() {
+    if !bodies.is_empty() {
+        if bodies.len() != mesh.hexes.len() {
             return Err(Failure::input("array-bodies", &"bodies has to name a body for each hex"));
         }
-        mesh.tags = body_tags(count, bodies);
+        mesh.tags = body_tags(&bodies);
     }
     let second_order = second_order_of(&mesh, middle_nodes, second_order)?;
     let document = Document { second_order, ..Document::from(mesh) };

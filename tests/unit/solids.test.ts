@@ -82,6 +82,16 @@ describe.each([1, 2])('solids on %i threads', (threads) => {
     expect(new Set(Array.from(mesh.groupedFaces).filter((_, i) => i % 2 === 1))).toEqual(new Set([0, 1, 2, 3, 4, 5, 6]));
   });
 
+  it('have no group for a body that is too thin for any of them', async () => {
+    const points = (size: number, far: number): string => [...Array(8).keys()].map((k) => `v ${[k & 1, (k >> 1) & 1, k >> 2].map((c) => far + size * c).join(' ')}\n`).join('');
+    const quads = [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [2, 4, 8, 6], [4, 3, 7, 8], [3, 1, 5, 7]];
+    const faces = (first: number): string => quads.map((quad) => `f ${quad.map((k) => first + k).join(' ')}\n`).join('');
+    const mesh = await mesher.meshSolid(points(2, 0) + faces(0) + points(0.01, 3) + faces(8), { edgeLength: 0.5 });
+    expect(mesh.result.lostBodies).toMatchObject([{ id: 1 }]);
+    const text = new TextDecoder().decode(await mesh.export('msh'));
+    expect([1, 2].map((body) => text.includes(`"body-${body}"`))).toEqual([true, false]);
+  });
+
   it.each(FORMATS)('are written as %s and read back, with their surfaces as groups', async (format) => {
     const mesh = await mesher.meshSolid(CUBE, { edgeLength: 0.5 });
     using again = await mesher.loadHexes(await mesh.export(format), { name: 'mesh.dat' });
@@ -127,11 +137,20 @@ describe.each([1, 2])('solids on %i threads', (threads) => {
     ['with a misspelt option', CUBE, { edgeLenght: 1 }, { name: 'OptionsError', code: 'option-unknown' }],
     ['with an edge length of 0', CUBE, { edgeLength: 0 }, { name: 'OptionsError', code: 'option-out-of-range' }],
     ['with cells larger than it', CUBE, { edgeLength: 50 }, { name: 'OptionsError', code: 'edge-length-too-large' }],
+    ['with more levels than there are', CUBE, { maxLevels: 9 }, { name: 'OptionsError', code: 'option-out-of-range' }],
+    ['with a distance of 0', CUBE, { maxDistance: 0 }, { name: 'OptionsError', code: 'option-out-of-range' }],
     ['with an angle out of range', CUBE, { featureAngle: 200 }, { name: 'OptionsError', code: 'option-out-of-range' }],
     ['with more hexes than allowed', CUBE, { edgeLength: 0.05, maxHexes: 1000 }, { name: 'LimitError', code: 'too-many-hexes' }],
     ['with more hexes than memory holds', CUBE, { edgeLength: 1e-4 }, { name: 'LimitError', code: 'memory-exceeded' }],
   ])('are refused %s', async (_, obj, options, error) => {
     await expect(mesher.meshSolid(obj, { edgeLength: 0.5, ...options } as SolidOptions)).rejects.toMatchObject(error);
+  });
+
+  it('are planned with no options that they cannot have', async () => {
+    for (const options of [{ maxLevels: 9 }, { maxDistance: 0 }, { curvature: -1 }, { edgeLength: Number.NaN }]) {
+      const planned = mesher.planSolid(CUBE, { edgeLength: 0.5, ...options });
+      await expect(planned).rejects.toMatchObject({ name: 'OptionsError', code: 'option-out-of-range' });
+    }
   });
 
   it('that would not fit are refused with what fits', async () => {

@@ -7,8 +7,9 @@
 //! | a curve between corners | its length / 1.5 |
 //! | a closed curve | its length / 6: a hole's rim is a hexagon at least |
 //!
-//! A size is met by the nearest level: cells of up to 1.4 times it will do. What even cells of twice the finest size
-//! would be too large for is left alone: the core keeps or gives it up as it is.
+//! A size is met by the nearest level: cells of up to 1.4 times it will do. Where the boundary is curved more than even the
+//! finest cells allow for, it gets these. Of the others, what even cells of twice the finest size would be too large for is
+//! left alone: the core keeps or gives it up as it is.
 
 use super::pieces::pieces;
 use crate::geometry::Point;
@@ -48,12 +49,12 @@ impl Demands {
             };
             pieces(solid.corners_of(t), is_small, &mut |[a, b, c]| {
                 let at = (a + b + c) / 3.0;
-                let size = if self.details { curved.min(self.room(solid, at, t)) } else { curved };
-                found.extend(self.level(size).map(|level| (level, at)));
+                let room = if self.details { self.level_of_detail(self.room(solid, at, t)) } else { None };
+                found.extend(self.level(curved).max(room).map(|level| (level, at)));
             });
         })?;
         let curves = solid.curves().iter().filter(|_| self.details).flat_map(|curve| {
-            let level = self.level(curve.length / if curve.ends.is_some() { 1.5 } else { 6.0 });
+            let level = self.level_of_detail(curve.length / if curve.ends.is_some() { 1.5 } else { 6.0 });
             let points = curve.vertices.iter().map(|&v| solid.points()[v as usize]);
             level.into_iter().flat_map(move |level| points.clone().map(move |at| (level, at)))
         });
@@ -77,13 +78,20 @@ impl Demands {
         across(1.0).min(across(-1.0))
     }
 
-    /// The level whose cells have about this size; `None` if that is 0, or far beyond the finest.
+    /// The level whose cells have about this size, or the finest if they are larger; `None` if that is 0.
     fn level(&self, size: f64) -> Option<u8> {
-        let halvings = libm::log2(self.edge_length / size).round();
-        let finest = f64::from(self.finest);
-        (halvings >= 1.0 && halvings <= finest + 1.0)
-            .then(|| halvings.min(finest) as u8)
-            .filter(|&level| level > 0)
+        let level = self.halvings(size).clamp(0.0, f64::from(self.finest)) as u8;
+        (level > 0).then_some(level)
+    }
+
+    /// The same for what cells far larger do not show: `None` if it is far beyond the finest.
+    fn level_of_detail(&self, size: f64) -> Option<u8> {
+        self.level(size).filter(|_| self.halvings(size) <= f64::from(self.finest) + 1.0)
+    }
+
+    /// How often the edge length is to be halved for about this size.
+    fn halvings(&self, size: f64) -> f64 {
+        libm::log2(self.edge_length / size).round()
     }
 }
 

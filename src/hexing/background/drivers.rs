@@ -72,29 +72,20 @@ impl Failure {
     }
 }
 
-/// What another try is to refine.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Retry {
-    /// Where it is to refine, and how far; levels count from the grid's cells.
-    pub regions: Vec<Region>,
-    /// Failures, by their place in the list, that are as fine as may be: to be reported.
-    pub given_up: Vec<usize>,
-}
-
-/// Asks for one level more around each failure, but for none beyond the `finest`. `edge_length` is that of level 0.
-pub fn retry(failures: &[Failure], edge_length: f64, finest: u8) -> Retry {
-    let mut retry = Retry::default();
+/// Where another try is to refine, and how far: a level more around each failure, but none beyond the `finest`. Levels count
+/// from the grid's cells, whose edges have this length.
+pub fn retry(failures: &[Failure], edge_length: f64, finest: u8) -> Vec<Region> {
+    let mut regions = Vec::new();
     for (level, missed) in (0..finest).flat_map(|level| [(level, Missed::Lost), (level, Missed::Far)]) {
         let alike = failures.iter().filter(|failure| failure.level == level && failure.missed == missed);
         let points: Vec<Point> = alike.flat_map(|failure| failure.points.iter().copied()).collect();
         if !points.is_empty() {
             let radius = missed.reach() * edge_length / f64::from(1u32 << level.min(31));
             let shape = Shape::Points { points, radius };
-            retry.regions.push(Region { shape, target: Target::Level(level + 1) });
+            regions.push(Region { shape, target: Target::Level(level + 1) });
         }
     }
-    retry.given_up = (0..failures.len()).filter(|&k| failures[k].level >= finest).collect();
-    retry
+    regions
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
@@ -107,15 +98,11 @@ mod tests {
         let at = |x: f64, level| Failure::of_lost(vec![Point::X * x], level);
         let far = Failure::of_far(Point::X * 5.0, 0);
         let asked = retry(&[at(1.0, 0), at(2.0, 2), at(3.0, 1), at(4.0, 0), far], 0.5, 2);
-        assert_eq!(asked.given_up, [1]);
         let points = |xs: &[f64], radius, level| Region {
             shape: Shape::Points { points: xs.iter().map(|&x| Point::X * x).collect(), radius },
             target: Target::Level(level),
         };
-        assert_eq!(
-            asked.regions,
-            [points(&[1.0, 4.0], 1.0, 1), points(&[5.0], 0.5, 1), points(&[3.0], 0.5, 2)]
-        );
+        assert_eq!(asked, [points(&[1.0, 4.0], 1.0, 1), points(&[5.0], 0.5, 1), points(&[3.0], 0.5, 2)]);
     }
 
     #[test]

@@ -19,7 +19,7 @@ mod swept;
 mod touched;
 
 pub use choose::{Background, Choice, SweptScore, choose, grid_capture, may_sweep};
-pub use drivers::{Failure, Missed, Retry, retry};
+pub use drivers::{Failure, Missed, retry};
 pub use grid::{AlignedGrid, BackgroundError, check_size, estimate_hexes, grid};
 pub(super) use octree::refined;
 pub use octree::{Octree, OctreeMesh, Wanted, octree};

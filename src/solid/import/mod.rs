@@ -92,7 +92,7 @@ pub(super) fn import(
         table = EdgeTable::new(&soup.mesh, monitor)?;
     }
     refuse::open(&soup, &table)?;
-    report.turned_triangles = orient::orient(&mut soup, &table, tolerance)?;
+    let turned = orient::orient(&mut soup, &table, tolerance)?;
     monitor.proceed()?;
     let mut shell = shell_of(&mut soup, monitor)?;
     monitor.proceed()?;
@@ -100,6 +100,9 @@ pub(super) fn import(
     monitor.proceed()?;
     let nesting = nesting::nesting(&shell, monitor)?;
     report.voids = nesting.voids;
+    // The walls of voids were turned to look out of these, and are turned back.
+    report.turned_triangles =
+        turned.iter().zip(&nesting.in_void).filter(|(turned, back)| turned != back).count();
     if nesting.voids > 0 {
         nesting::turn_voids(&mut shell.mesh, &nesting);
         soup.mesh = shell.mesh;

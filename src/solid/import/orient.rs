@@ -5,11 +5,11 @@ use crate::mesh::topology::{Sets, disagrees, edge_ids};
 use crate::solid::error::SolidError;
 use crate::solid::shell::{EdgeTable, triangle_of};
 
-/// Makes the triangles of each component agree and enclose a positive volume. Returns how many were turned.
+/// Makes the triangles of each component agree and enclose a positive volume. Returns which were turned.
 ///
 /// # Errors
 /// If a component is one-sided, or nowhere thicker than `tolerance`.
-pub(super) fn orient(soup: &mut Soup, table: &EdgeTable, tolerance: f64) -> Result<usize, SolidError> {
+pub(super) fn orient(soup: &mut Soup, table: &EdgeTable, tolerance: f64) -> Result<Vec<bool>, SolidError> {
     let count = soup.face_of.len();
     let mut sides = Sets::new(count);
     for e in edge_ids(&table.edges) {
@@ -35,13 +35,13 @@ pub(super) fn orient(soup: &mut Soup, table: &EdgeTable, tolerance: f64) -> Resu
         let t = root as usize;
         return Err(SolidError::NoVolume { at: soup.mesh.at(t)[0], face: soup.face_of[t] });
     }
-    let mut turned = 0;
-    for t in 0..count {
+    let is_inward = |t: usize| {
         let (root, odd) = sides.root(t as u32);
-        if odd != (volume[root as usize] < 0.0) {
-            soup.mesh.triangles[t].swap(1, 2);
-            turned += 1;
-        }
+        odd != (volume[root as usize] < 0.0)
+    };
+    let turned: Vec<bool> = (0..count).map(is_inward).collect();
+    for (triangle, _) in soup.mesh.triangles.iter_mut().zip(&turned).filter(|(_, turned)| **turned) {
+        triangle.swap(1, 2);
     }
     Ok(turned)
 }

@@ -159,6 +159,82 @@ fn a_body_that_is_too_thin_is_told_where_there_are_others() {
     let stdout = succeed(&folder, &["hex", "two.obj", "-o", "two.vtu", "-e", "0.5"]);
     assert!(stdout.contains("64 hexes"), "{stdout}");
     assert!(stdout.contains("1 body was lost, since no hex lies within it, the largest at 3.01"), "{stdout}");
+    succeed(&folder, &["hex", "two.obj", "-o", "two.msh", "-e", "0.5"]);
+    let mesh = std::fs::read_to_string(folder.path().join("two.msh")).unwrap();
+    assert!(mesh.contains("\"body-1\"") && !mesh.contains("\"body-2\""), "no group without hexes");
+}
+
+/// Hexes that the options allow, but memory does not.
+#[test]
+#[cfg(target_os = "linux")]
+fn more_hexes_than_memory_holds_are_refused_before_the_work() {
+    let folder = folder_holding("part.obj", CUBE);
+    let command = format!(
+        "ulimit -v 4000000 && exec '{}' hex part.obj -o out.vtu -e 0.004 --max-hexes 200000000",
+        env!("CARGO_BIN_EXE_hexmill")
+    );
+    let run = std::process::Command::new("sh").args(["-c", &command]).current_dir(folder.path()).output();
+    let run = run.unwrap();
+    let error = String::from_utf8(run.stderr).unwrap();
+    assert_eq!(run.status.code(), Some(1), "{error}");
+    assert!(error.starts_with("error[memory-exceeded]: part.obj: the mesh would have 12"), "{error}");
+    assert!(error.contains("GB, of which") && error.contains("raise the edge length"), "{error}");
+    assert!(!folder.path().join("out.vtu").exists());
+}
+
+#[test]
+fn shells_within_bodies_are_told_and_counted_as_turned_where_they_were() {
+    // Of each, the six quads of the inner cube look into the void, as they should, or out of it.
+    let inner = "v 0.5 0.5 0.5\nv 1.5 0.5 0.5\nv 1.5 1.5 0.5\nv 0.5 1.5 0.5\nv 0.5 0.5 1.5\nv 1.5 0.5 1.5\nv 1.5 1.5 1.5\n\
+        v 0.5 1.5 1.5\n";
+    let outward = "f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
+    let inward: String = outward
+        .lines()
+        .map(|line| {
+            let nodes: Vec<&str> = line.split_whitespace().skip(1).collect();
+            let [a, b, c, d] = nodes[..] else { unreachable!("quads") };
+            format!("f {d} {c} {b} {a}\n")
+        })
+        .collect();
+    for (faces, mended) in [(inward.as_str(), None), (outward, Some("mended: 12 triangles turned outward"))] {
+        let folder = folder_holding("void.obj", &format!("{CUBE}{inner}{faces}"));
+        let stdout = succeed(&folder, &["hex", "void.obj", "-o", "void.vtu", "-e", "0.5"]);
+        assert!(stdout.contains("1 shell within a body is a void"), "{stdout}");
+        assert_eq!(stdout.contains("mended"), mended.is_some(), "{stdout}");
+        assert!(mended.is_none_or(|mended| stdout.contains(mended)), "{stdout}");
+    }
+}
+
+/// A plate whose rim has a step far lower than its edges.
+#[test]
+fn curves_that_shrank_and_nodes_that_are_off_are_told_with_their_place() {
+    let rim = [[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.0, 1.0], [2.0, 1.02], [0.0, 1.02]];
+    let nodes: String =
+        [0.0, 1.0].iter().flat_map(|z| rim.map(|[x, y]| format!("v {x} {y} {z}\n"))).collect();
+    let walls: String = (1..=6)
+        .map(|k| {
+            let next = k % 6 + 1;
+            format!("f {k} {next} {} {}\n", next + 6, k + 6)
+        })
+        .collect();
+    let folder = folder_holding("step.obj", &format!("{nodes}f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n{walls}"));
+    let stdout = succeed(&folder, &["hex", "step.obj", "-o", "step.vtu", "-e", "0.12"]);
+    assert!(stdout.contains("captured 10 of 12 corners, 16 of 18 curves, 8 of 8 surfaces"), "{stdout}");
+    assert!(stdout.contains("2 curves shrank to corners, the largest at 2, 1.01, 1"), "{stdout}");
+    assert!(stdout.contains("1 node is off its corner, curve or surface, the farthest by 5."), "{stdout}");
+}
+
+#[test]
+fn a_smaller_turn_than_the_finest_levels_allow_gets_these() {
+    let folder = folder_holding("drum.obj", &drum());
+    let levels = |degrees: &str| {
+        let arguments = ["hex", "drum.obj", "-o", "drum.vtu", "-e", "0.5", "--curvature", degrees];
+        succeed(&folder, &[&arguments[..], &["--max-levels", "1", "--report", "r.json"]].concat());
+        json(&folder, "r.json")["hexing"]["bodies"][0]["attempts"][0]["levels"].take()
+    };
+    let [coarse, fine, finest] = ["90", "12", "0.1"].map(levels);
+    assert!(fine.as_array().unwrap().len() > coarse.as_array().unwrap().len(), "{fine} {coarse}");
+    assert_eq!(fine, finest);
 }
 
 /// Two polygons of 24 sides, and what is between them: a drum.

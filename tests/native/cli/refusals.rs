@@ -73,6 +73,11 @@ fn options_must_be_within_their_range() {
         &["refine", "in.obj", "-o", "out.obj", "--levels=3", "--max-levels=2"],
         "--levels is 3, but --max-levels 2",
     );
+    for angle in ["0", "180", "nan"] {
+        let wanted =
+            format!("invalid value '{angle}' for '--feature-angle <DEG>': give a number above 0, below 180");
+        misused(&["hex", "in.obj", "-o", "out.vtu", "-e=1", "--feature-angle", angle], &wanted);
+    }
 }
 
 /// Checks that a command line is told to write over a file that it needs, and that the file stays as it is.

@@ -1,5 +1,7 @@
+import { readdirSync, readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
 import { describe, expect, test } from 'vitest';
-import { bytes, count, duration, editable, parseNumber, percent, roughCount, significant } from './text.js';
+import { bytes, count, doing, duration, editable, parseNumber, percent, roughCount, significant } from './text.js';
 
 describe('numbers for people', () => {
   test.each([
@@ -63,4 +65,15 @@ describe('numbers from people', () => {
       expect(parseNumber(editable(value))).toBeCloseTo(value, 6);
     }
   });
+});
+
+test('each stage of the core is told in words of its own', () => {
+  const core = fileURLToPath(new URL('../../../src/', import.meta.url));
+  const files = readdirSync(core, { recursive: true, encoding: 'utf8' }).filter((file) => file.endsWith('.rs'));
+  const sources = files.map((file) => readFileSync(core + file, 'utf8'));
+  const stages = sources.flatMap((text) => [...text.matchAll(/: Stage = Stage\("([^"]+)"\)/g)].map(([, name]) => name as string));
+  expect(stages.length).toBeGreaterThan(20);
+  expect(stages.filter((stage) => doing(stage) === stage)).toEqual([]);
+  const words = [...new Set(stages)].map(doing);
+  expect(new Set(words).size).toBe(words.length);
 });

@@ -61,13 +61,22 @@ const DOING: Readonly<Record<string, string>> = {
   untangling: 'untangling transitions',
   smoothing: 'smoothing transitions',
   solid: 'finding the solid',
+  project: 'looking along the sweep',
+  sample: 'dividing curves',
+  pack: 'placing points',
+  pair: 'pairing triangles',
+  tidy: 'tidying quads',
+  smooth: 'smoothing quads',
+  sweep: 'sweeping layers',
   background: 'laying out cells',
+  input: 'looking at cells',
   core: 'choosing cells inside',
   correspondence: 'matching corners and curves',
   sheets: 'adding layers at the boundary',
   fitting: 'moving nodes to the boundary',
-  unlocking: 'freeing nodes that are stuck',
   distance: 'measuring distances',
+  finishing: 'smoothing once more',
+  'second order': 'adding nodes beside corners',
 };
 
 /** What is being done in a stage of the work. */

@@ -2,20 +2,29 @@
 
 use std::path::Path;
 
+use hexmill::hexing::background::BackgroundError;
 use hexmill::hexing::{
-    HexedSolid, HexingError, HexingOptions, HexingReport, ResultReport, SecondOrderReport, hex_solid,
+    FitCounts, HexedSolid, HexingError, HexingOptions, HexingReport, ResultReport, SecondOrderReport,
+    hex_solid,
 };
 use hexmill::io::Document;
+use hexmill::refine::hex::HexRefineError;
+use hexmill::solid::SolidError;
 
 use super::args::HexArgs;
 use super::failure::Failure;
 use super::files::{format_for_hexes, format_for_second_order, load};
 use super::making::Made;
+use super::memory::{ADVICE, Limit};
 use super::mesh_report::{Counts, quality_table};
 use super::pages::give_back_soon;
 use super::progress::Progress;
 use super::report::Report;
 use super::words::counted;
+
+/// Peak memory of the command in bytes a hex, about: models of 44 to 62 thousand hexes took 600 to 970, and 1,600 where the
+/// solid itself is the most of it.
+const BYTES_PER_HEX: u64 = 1000;
 
 /// Reads a closed surface, fills it with hexes, writes and reports.
 pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
@@ -27,7 +36,9 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
     let regions = args.regions.iter().filter_map(|region| Some(("a region's file", region.file()?)));
     let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
     args.making.prepare(&inputs)?;
-    let options = options(args)?;
+    let mut options = options(args)?;
+    let limit = Limit::new(options.max_hexes, HexingOptions::MOST_HEXES, BYTES_PER_HEX);
+    options.max_hexes = limit.cells;
     let progress = Progress::new(quiet);
 
     let mut loaded = progress.stage("read", || load(&args.input))?;
@@ -37,7 +48,7 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
     })?;
     let before = Counts::of_polygons(&surface);
     let HexedSolid { mesh, second_order, report: work, .. } =
-        hex_solid(surface, &options, &progress).map_err(|error| refused(&args.input, &error))?;
+        hex_solid(surface, &options, &progress).map_err(|error| refused(&args.input, &limit, &error))?;
 
     let document = Document { second_order, ..Document::from(mesh) };
     let made = Made { command: "hex", input: (&loaded, before), document: &document, capped: 0 };
@@ -61,10 +72,23 @@ fn options(args: &HexArgs) -> Result<HexingOptions, Failure> {
 }
 
 /// The solid was not meshed, or the options make no sense.
-fn refused(path: &Path, error: &HexingError) -> Failure {
+fn refused(path: &Path, limit: &Limit, error: &HexingError) -> Failure {
+    let file = path.display();
+    let too_many = |hexes: u64| {
+        let raise = || Failure::refused(error.code(), format!("{file}: {error} (--max-hexes)"));
+        limit.exceeded(&file.to_string(), hexes, "hexes", ADVICE).unwrap_or_else(raise)
+    };
     match error {
-        HexingError::Option { .. } => Failure::Usage(error.to_string()),
-        _ => Failure::refused(error.code(), format!("{}: {error}", path.display())),
+        HexingError::Option { .. }
+        | HexingError::Solid(SolidError::Option { .. })
+        | HexingError::Background(BackgroundError::Refine(
+            HexRefineError::Option { .. } | HexRefineError::Sizing(_),
+        )) => Failure::Usage(error.to_string()),
+        HexingError::Background(BackgroundError::TooManyHexes { hexes, .. }) => too_many(*hexes as u64),
+        HexingError::Background(BackgroundError::Refine(HexRefineError::TooManyHexes { hexes, .. })) => {
+            too_many(*hexes)
+        }
+        _ => Failure::refused(error.code(), format!("{file}: {error}")),
     }
 }
 
@@ -84,6 +108,11 @@ fn work_in_words(work: &HexingReport) -> Vec<String> {
     let ResultReport { features, euler, solid_euler, distance, lost_bodies, .. } = result;
     let mended = work.solid.mended();
     let mut lines = Vec::new();
+    if work.solid.voids > 0 {
+        let voids =
+            counted(work.solid.voids, "shell within a body is a void", "shells within bodies are voids");
+        lines.push(voids);
+    }
     if !mended.is_empty() {
         lines.push(format!("mended: {}", mended.join(", ")));
     }
@@ -91,6 +120,7 @@ fn work_in_words(work: &HexingReport) -> Vec<String> {
     let captured = kinds.map(|(kind, n)| format!("{} of {} {kind}", n.captured, n.found)).join(", ");
     lines.push(format!("captured {captured}"));
     let kinds = [
+        ("curve shrank to a corner", "curves shrank to corners", &features.contracted),
         ("curve was lost", "curves were lost", &features.suppressed),
         ("surface was lost", "surfaces were lost", &features.lost_surfaces),
         (
@@ -109,6 +139,17 @@ fn work_in_words(work: &HexingReport) -> Vec<String> {
             "the boundary's Euler number is {euler}, the solid's {solid_euler}: parts or holes smaller than the edges \
              were lost; lower the edge length"
         ));
+    }
+    let kept = work.bodies.iter().filter_map(|body| body.attempts[body.kept?].mesh.as_ref());
+    let off: Vec<&FitCounts> = kept.map(|mesh| &mesh.fit).filter(|fit| fit.off > 0).collect();
+    if let Some(farthest) = off.iter().max_by(|a, b| a.farthest.total_cmp(&b.farthest)) {
+        let [x, y, z] = farthest.place.unwrap_or_default();
+        let nodes = counted(
+            off.iter().map(|fit| fit.off).sum::<usize>(),
+            "node is off its corner, curve or surface",
+            "nodes are off their corner, curve or surface",
+        );
+        lines.push(format!("{nodes}, the farthest by {:.6e} at {x}, {y}, {z}", farthest.farthest));
     }
     lines.push(format!("distance to the solid: {}", distance.mesh_to_surface.in_words()));
     lines.push(format!("distance from the solid: {}", distance.surface_to_mesh.in_words()));

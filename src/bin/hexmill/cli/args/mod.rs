@@ -14,7 +14,7 @@ use hexmill::refine::QuadOptions;
 use hexmill::refine::hex::{HexOptions, Method};
 
 use super::region::RegionArg;
-use values::{angle, gradation, levels, positive};
+use values::{angle, feature_angle, gradation, levels, positive};
 
 /// Conforming quad and hex meshes of surfaces and solids, refined where they are wanted finer.
 ///
@@ -167,7 +167,7 @@ pub(crate) struct HexArgs {
     pub(crate) curvature: Option<f64>,
 
     /// Faces that meet at more than this are parts of different surfaces, in degrees
-    #[arg(long, value_name = "DEG", value_parser = angle, allow_negative_numbers = true, default_value_t = 35.0)]
+    #[arg(long, value_name = "DEG", value_parser = feature_angle, allow_negative_numbers = true, default_value_t = 35.0)]
     pub(crate) feature_angle: f64,
 
     /// How far mesh and solid may be from each other before hexes there are made smaller

@@ -23,6 +23,11 @@ pub(super) fn angle(text: &str) -> Result<f64, String> {
     positive(text).ok().filter(|&angle| angle <= 180.0).ok_or("give a number above 0, at most 180".to_owned())
 }
 
+/// Degrees between two normals, less than a turn all the way around.
+pub(super) fn feature_angle(text: &str) -> Result<f64, String> {
+    positive(text).ok().filter(|&angle| angle < 180.0).ok_or("give a number above 0, below 180".to_owned())
+}
+
 /// A growth from element to element.
 pub(super) fn gradation(text: &str) -> Result<f64, String> {
     positive(text).ok().filter(|&g| g > 1.0 && g <= 2.0).ok_or("give a number above 1, at most 2".to_owned())
