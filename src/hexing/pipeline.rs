@@ -12,7 +12,7 @@
 
 use std::borrow::Borrow;
 
-use super::background::check_size;
+use super::background::{BackgroundError, check_size};
 use super::body::{Best, Body, mesh_body};
 use super::ground::coarsest;
 use super::groups::{body_tags, sides_of, surface_groups};
@@ -20,6 +20,8 @@ use super::options::{HexingError, HexingOptions, validate};
 use super::report::{BodyReport, HexingReport, LostFeature, ResultReport};
 use super::second_order::SecondOrderBodies;
 use crate::mesh::{HexMesh, NodeId, PolygonMesh, SecondOrder};
+use crate::refine::hex::HexRefineError;
+use crate::sizing::{Region, SizeField, SizeOptions, SizedElement};
 use crate::solid::{CurveId, SolidModel, SolidReport, SurfaceId};
 use crate::{Cancelled, Monitor, Stage};
 
@@ -42,6 +44,22 @@ impl HexedSolid {
     /// surface that it stands for: what [`surface_groups`](super::surface_groups) makes groups of.
     pub fn sides(&self) -> Vec<(u32, SurfaceId)> {
         sides_of(&self.mesh, &self.faces)
+    }
+
+    /// The regions that overlap none of the hexes, by their places among these.
+    ///
+    /// # Errors
+    /// If a region is out of range, or the monitor stops it.
+    pub fn idle_regions(&self, regions: &[Region], monitor: &dyn Monitor) -> Result<Vec<u32>, HexingError> {
+        let sizes = SizeOptions { edge_length: None, curvature: None, gradation: 2.0, regions };
+        let field = SizeField::of_hexes(&self.mesh, sizes)
+            .map_err(|error| BackgroundError::from(HexRefineError::from(error)))?;
+        let idle = field.idle_regions(self.mesh.hexes.len(), monitor, |hex| {
+            let corners = self.mesh.hexes[hex].map(|n| self.mesh.positions[n.index()]);
+            // Overlaps do not depend on lengths.
+            [SizedElement { corners, longest: 0.0, level: 0, root: None }]
+        });
+        Ok(idle?)
     }
 }
 

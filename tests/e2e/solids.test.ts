@@ -122,7 +122,7 @@ test('what the mesh does not show is listed and drawn', async () => {
 
 test('whether a mesh is as near as was asked for is told', async () => {
   const { page } = bench;
-  const near = page.locator('[data-near]');
+  const near = page.locator('[aria-labelledby=distance-title] [data-good]');
   expect(await near.count()).toBe(0);
   const further = page.locator('details', { hasText: 'Background, nodes and limits' });
   await further.evaluate((details) => details.setAttribute('open', ''));
@@ -132,7 +132,7 @@ test('whether a mesh is as near as was asked for is told', async () => {
     await bench.fill('From the surface, at most, model units', limit);
     await bench.estimate();
     await bench.mesh();
-    expect(await near.getAttribute('data-near')).toBe(isNear);
+    expect(await near.getAttribute('data-good')).toBe(isNear);
     expect(await near.innerText()).toContain(`${limit} asked for`);
     if (isNear === 'true') continue;
     await near.scrollIntoViewIfNeeded();

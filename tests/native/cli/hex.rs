@@ -237,6 +237,17 @@ fn a_smaller_turn_than_the_finest_levels_allow_gets_these() {
     assert_eq!(fine, finest);
 }
 
+#[test]
+fn regions_that_meet_nothing_are_told() {
+    let folder = folder_holding("cube.obj", CUBE);
+    let arguments = ["hex", "cube.obj", "-o", "cube.vtu", "-e", "0.5", "--report", "r.json"];
+    let regions = ["-r", "sphere:9,9,9,1:level=1", "-r", "sphere:2,2,2,0.2:level=1"];
+    let stdout = succeed(&folder, &[&arguments[..], &regions].concat());
+    let told = "region sphere:9,9,9,1:level=1 meets nothing of the input and refines nothing";
+    assert!(stdout.contains(told) && stdout.matches("meets nothing").count() == 1, "{stdout}");
+    assert_eq!(json(&folder, "r.json")["idleRegions"], json!(["sphere:9,9,9,1:level=1"]));
+}
+
 /// Two polygons of 24 sides, and what is between them: a drum.
 fn drum() -> String {
     let angles = (0..24).map(|k| f64::from(k) / 24.0 * std::f64::consts::TAU);

@@ -2,12 +2,12 @@
 
 import { html, nothing } from 'lit-html';
 import type { TemplateResult } from 'lit-html';
-import type { HexedSolid, SurfaceDistances } from 'hexmill';
+import type { HexedSolid, SurfaceDistances, Vector } from 'hexmill';
 import { icon } from './icons.js';
 import type { Page } from './page.js';
 import { lostOf } from '../model/features.js';
 import type { Lost } from '../model/features.js';
-import type { Settings, Vec3 } from '../model/settings.js';
+import type { Settings, SolidSettings, Vec3 } from '../model/settings.js';
 import { diagonal } from '../model/shape.js';
 import { count, counted, significant } from '../model/text.js';
 
@@ -29,12 +29,12 @@ export function featurePanel(page: Page, mesh: HexedSolid): TemplateResult {
       ${kinds.map(([name, { found, captured }]) => html`<div class=${captured < found ? 'bad' : ''}><dt>${name}</dt><dd>${count(captured)}<small> of ${count(found)}</small></dd></div>`)}
     </dl>
     ${lost.length === 0
-      ? html`<ul class="checks"><li class="good">${icon('check')}The mesh shows every feature</li></ul>`
+      ? verdict(true, 'The mesh shows every feature')
       : html`<ol class="lost">${lost.slice(0, SHOWN).map((one) => item(page, one))}</ol>
           ${lost.length > SHOWN ? html`<p class="hint">and ${counted(lost.length - SHOWN, 'smaller one')}</p>` : nothing}`}
     ${isAlike
       ? nothing
-      : html`<ul class="checks"><li class="bad">${icon('warn')}Of another kind than the solid: Euler number ${significant(euler)}, not ${significant(solidEuler)}. Lower the edge length.</li></ul>`}
+      : verdict(false, `Of another kind than the solid: Euler number ${significant(euler)}, not ${significant(solidEuler)}. Lower the edge length.`)}
   </section>`;
 }
 
@@ -47,7 +47,7 @@ function item({ viewport }: Page, { what, id, fate, place, size }: Lost): Templa
 }
 
 /** Nodes beside the corners, if there are any: on the solid, and off it where a hex would be turned inside out. */
-export function secondOrderPanel({ viewport }: Page, { report: { secondOrder: made } }: HexedSolid, { solid }: Settings): TemplateResult | typeof nothing {
+export function secondOrderPanel(page: Page, { report: { secondOrder: made } }: HexedSolid, { solid }: Settings): TemplateResult | typeof nothing {
   if (!made) return nothing;
   const { farthest, nodes, onSolid, place, yielded } = made;
   const yields = `${counted(yielded, 'node')} off the solid for the sake of ${yielded === 1 ? 'its' : 'their'} hexes, at most ${significant(farthest, 3)}`;
@@ -57,9 +57,7 @@ export function secondOrderPanel({ viewport }: Page, { report: { secondOrder: ma
       <dt>Nodes beside the corners</dt><dd>${count(nodes)}</dd>
       <dt>On the solid</dt><dd>${count(onSolid)}</dd>
     </dl>
-    <ul class="checks">${yielded === 0
-      ? html`<li class="good">${icon('check')}All on the boundary are on the solid</li>`
-      : html`<li class="bad">${icon('warn')}${place ? html`<button class="text-button" type="button" title="Show the farthest" @click=${() => viewport.showPlace(place as Vec3, EDGES_AROUND * solid.edgeLength)}>${yields}</button>` : yields}</li>`}</ul>
+    ${yielded === 0 ? verdict(true, 'All on the boundary are on the solid') : verdict(false, place ? showing(page, yields, place, solid) : yields)}
   </section>`;
 }
 
@@ -78,16 +76,23 @@ export function distancePanel(page: Page, { result }: HexedSolid, { solid }: Set
   return html`<section aria-labelledby="distance-title">
     <h2 id="distance-title">Distance to the input</h2>
     <dl class="facts">${rows.map(([name, value]) => html`<dt>${name}</dt><dd>${text(value)}</dd>`)}</dl>
-    ${result.maxDistance === null ? nothing : asked(page, result.distance, result.maxDistance, solid.edgeLength)}
+    ${result.maxDistance === null ? nothing : asked(page, result.distance, result.maxDistance, solid)}
   </section>`;
 }
 
 /** Whether a mesh is as near as was asked for. */
-function asked({ viewport }: Page, { meshToSurface, surfaceToMesh }: SurfaceDistances, limit: number, edgeLength: number): TemplateResult {
+function asked(page: Page, { meshToSurface, surfaceToMesh }: SurfaceDistances, limit: number, solid: SolidSettings): TemplateResult {
   const { max, farthest } = meshToSurface.max > surfaceToMesh.max ? meshToSurface : surfaceToMesh;
-  const isNear = max <= limit;
-  const show = (): void => viewport.showPlace(farthest as Vec3, EDGES_AROUND * edgeLength);
-  return html`<ul class="checks" data-near=${isNear}>${isNear
-    ? html`<li class="good">${icon('check')}Within the ${significant(limit, 3)} asked for</li>`
-    : html`<li class="bad">${icon('warn')}<span><button class="text-button" type="button" title="Show the farthest" @click=${show}>Farther than the ${significant(limit, 3)} asked for</button>. Lower the edge length.</span></li>`}</ul>`;
+  const text = `the ${significant(limit, 3)} asked for`;
+  return max <= limit ? verdict(true, `Within ${text}`) : verdict(false, showing(page, `Farther than ${text}`, farthest, solid));
+}
+
+/** What was found of a mesh, and whether that is good. */
+function verdict(isGood: boolean, text: string | TemplateResult): TemplateResult {
+  return html`<ul class="checks" data-good=${isGood}><li class=${isGood ? 'good' : 'bad'}>${icon(isGood ? 'check' : 'warn')}${text}</li></ul>`;
+}
+
+/** A text that shows its place. */
+function showing({ viewport }: Page, text: string, place: Vector, { edgeLength }: SolidSettings): TemplateResult {
+  return html`<button class="text-button" type="button" title="Show the farthest" @click=${() => viewport.showPlace(place as Vec3, EDGES_AROUND * edgeLength)}>${text}</button>`;
 }

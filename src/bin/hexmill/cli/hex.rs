@@ -47,12 +47,16 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
         Failure::refused("surface-needed", format!("{}: {message}", args.input.display()))
     })?;
     let before = Counts::of_polygons(&surface);
-    let HexedSolid { mesh, second_order, report: work, .. } =
-        hex_solid(surface, &options, &progress).map_err(|error| refused(&args.input, &limit, &error))?;
+    let refused = |error: HexingError| refused(&args.input, &limit, &error);
+    let hexed = hex_solid(surface, &options, &progress).map_err(refused)?;
+    let idle = hexed.idle_regions(&options.regions, &progress).map_err(refused)?;
+    let HexedSolid { mesh, second_order, report: work, .. } = hexed;
 
     let document = Document { second_order, ..Document::from(mesh) };
     let made = Made { command: "hex", input: (&loaded, before), document: &document, capped: 0 };
-    let report = Report { hexing: Some(work), ..args.making.write(&made, format, &progress, quiet)? };
+    let idle_regions = idle.iter().map(|&k| args.regions[k as usize].text.clone()).collect();
+    let report = args.making.write(&made, format, &progress, quiet)?;
+    let report = Report { hexing: Some(work), idle_regions, ..report };
     args.making.close(report, &progress, quiet, in_words)
 }
 
@@ -97,6 +101,7 @@ fn in_words(path: &Path, report: &Report) -> String {
     let mesh = &report.mesh;
     let mut lines = vec![format!("{}: {}", path.display(), mesh.counts.in_words())];
     lines.extend(report.hexing.iter().flat_map(work_in_words).map(|line| format!("  {line}")));
+    lines.extend(report.idle_in_words());
     lines.extend(mesh.quality.as_ref().map(quality_table));
     lines.push(format!("  hash {}, {:.2} s", mesh.hash, report.seconds));
     lines.join("\n") + "\n"

@@ -95,8 +95,7 @@ fn in_words(path: &Path, report: &Report) -> String {
             counted(corners, "corner", "corners")
         ));
     }
-    let idle = |region| format!("  region {region} meets nothing of the input and refines nothing");
-    lines.extend(report.idle_regions.iter().map(idle));
+    lines.extend(report.idle_in_words());
     lines.extend(mesh.quality.as_ref().map(quality_table));
     lines.push(format!("  hash {}, {:.2} s", mesh.hash, report.seconds));
     lines.join("\n") + "\n"

@@ -34,7 +34,7 @@ pub(crate) struct Report {
     /// Of a refinement of a surface.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) dropped_features: Option<DroppedFeatures>,
-    /// Of a refinement: the regions that overlap no part of the input.
+    /// The regions that overlap no part of what was to be refined, or of a solid's mesh.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) idle_regions: Vec<String>,
     /// Of the meshing of a solid.
@@ -55,6 +55,12 @@ pub(crate) struct Report {
 }
 
 impl Report {
+    /// The regions that refine nothing, a line each.
+    pub(crate) fn idle_in_words(&self) -> impl Iterator<Item = String> {
+        let idle = |region| format!("  region {region} meets nothing of the input and refines nothing");
+        self.idle_regions.iter().map(idle)
+    }
+
     /// A record of what `command` made of `input`, with its times still to be filled in.
     pub(crate) fn new(command: &'static str, input: InputReport, mesh: MeshReport) -> Self {
         Self {
