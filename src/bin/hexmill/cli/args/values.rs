@@ -23,7 +23,7 @@ pub(super) fn angle(text: &str) -> Result<f64, String> {
     positive(text).ok().filter(|&angle| angle <= 180.0).ok_or("give a number above 0, at most 180".to_owned())
 }
 
-/// Degrees between two normals, less than a turn all the way around.
+/// Degrees between the normals of two faces, less than those of faces that lie on each other.
 pub(super) fn feature_angle(text: &str) -> Result<f64, String> {
     positive(text).ok().filter(|&angle| angle < 180.0).ok_or("give a number above 0, below 180".to_owned())
 }
