@@ -258,7 +258,7 @@ mod tests {
             let site = Site::new(&solid, &options, &Silent).unwrap();
             let is_astray = distance(&report.attempts[0]) > site.taste.astray * options.edge_length;
             assert_eq!(is_astray, depth > 1.0);
-            assert_eq!(kinds.get(2..4) == Some(&[(Background::Grid, 1), (Background::Grid, 2)]), is_astray);
+            assert_eq!(kinds.contains(&(Background::Grid, 1)), is_astray);
         }
     }
 
@@ -386,10 +386,11 @@ mod tests {
         let recessed =
             voxels([20, 20, 6], |[x, y, z]| z < 5 || !(8..11).contains(&x) || !(8..11).contains(&y));
         let shallow = moved(recessed, |p| p.with_z(p.z.min(5.0) + 0.4 * (p.z - 5.0).max(0.0)));
-        let options = HexingOptions { edge_length: 1.0, max_distance: Some(0.1), ..HexingOptions::default() };
+        let options =
+            HexingOptions { edge_length: 1.0, max_distance: Some(0.09), ..HexingOptions::default() };
         let Body { best, report } = mesh_body(&solid(&shallow), &options, &Silent).unwrap();
         let distances: Vec<f64> = report.attempts.iter().map(distance).collect();
         let kept = best.unwrap().number;
-        assert!(distances[0] > 0.15 && kept > 0 && distances[kept] < 0.1, "{distances:?} {kept}");
+        assert!(distances[0] > 0.1 && kept > 0 && distances[kept] < 0.09, "{distances:?} {kept}");
     }
 }

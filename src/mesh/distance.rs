@@ -2,19 +2,11 @@
 
 use serde::Serialize;
 
+use super::samples::{Quads, Sampled, Triangles};
 use super::topology::hex_boundary;
 use super::{HexMesh, NodeId};
-use crate::geometry::{NearestTriangle, Point};
+use crate::geometry::{NearestFacet, NearestTriangle, Point};
 use crate::{Cancelled, Monitor, Stage, parallel};
-
-/// A surface of triangles.
-#[derive(Clone, Copy, Debug)]
-pub struct Triangles<'a> {
-    /// Points, of which triangles need not use all.
-    pub positions: &'a [Point],
-    /// The corners of each triangle, as numbers of positions.
-    pub triangles: &'a [[u32; 3]],
-}
 
 /// The stage that a monitor hears of.
 const MEASURING: Stage = Stage("distance");
@@ -32,7 +24,8 @@ pub struct Distances {
     pub surface_to_mesh: Distance,
 }
 
-/// Distances of samples of one surface, its nodes and the centroids of its triangles, to another surface.
+/// Distances of samples of one surface to another: of its nodes, of points along its sides and of points in its faces, such
+/// that they are no farther from each other than about an edge of the mesh.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Distance {
@@ -61,18 +54,38 @@ impl Distances {
         Ok(Self::with_samples_beyond(f64::INFINITY, mesh, surface, monitor)?.0)
     }
 
+    /// The same, of a mesh with quads at its boundary.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when the monitor says so.
+    pub fn of_quads(
+        mesh: Quads<'_>,
+        surface: Triangles<'_>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        Ok(Self::with_samples_beyond(f64::INFINITY, mesh, surface, monitor)?.0)
+    }
+
     /// The same, with the samples that are more than `limit` from the other surface: those of the mesh, then those of the
     /// surface.
     pub(crate) fn with_samples_beyond(
         limit: f64,
-        mesh: Triangles<'_>,
+        mesh: impl Sampled,
         surface: Triangles<'_>,
         monitor: &dyn Monitor,
     ) -> Result<(Self, Vec<Point>), Cancelled> {
         monitor.checkpoint(MEASURING, 0.0)?;
-        let (mesh_to_surface, mut beyond) = Samples::measured(mesh, surface, monitor)?.told(limit);
+        let edge = mesh.mean_side();
+        let (mesh_to_surface, mut beyond) = {
+            let nearest = NearestFacet::within(surface.facets(), monitor)?;
+            Samples::measured(mesh.samples(edge, monitor)?, &|p| nearest.closest_point(p), monitor)?
+                .told(limit)
+        };
         monitor.checkpoint(MEASURING, 0.5)?;
-        let (surface_to_mesh, of_surface) = Samples::measured(surface, mesh, monitor)?.told(limit);
+        let nearest = NearestFacet::within(mesh.facets(), monitor)?;
+        let places = surface.samples(edge, monitor)?;
+        let (surface_to_mesh, of_surface) =
+            Samples::measured(places, &|p| nearest.closest_point(p), monitor)?.told(limit);
         monitor.progress(MEASURING, 1.0);
         beyond.extend(of_surface);
         Ok((Self { mesh_to_surface, surface_to_mesh }, beyond))
@@ -97,8 +110,8 @@ impl Distances {
     }
 }
 
-/// For each hex how far its boundary faces are from a surface: the greatest distance of their nodes and middles, in model
-/// units. NaN for hexes without boundary faces, or if the surface is empty.
+/// For each hex how far its boundary faces are from a surface: the greatest distance of their nodes, their middles
+/// and those of their sides, in model units. NaN for hexes without boundary faces, or if the surface is empty.
 ///
 /// # Errors
 /// [`Cancelled`] when the monitor says so.
@@ -107,13 +120,14 @@ pub fn distances_of_hexes(
     surface: Triangles<'_>,
     monitor: &dyn Monitor,
 ) -> Result<Vec<f32>, Cancelled> {
-    let nearest = NearestTriangle::new(surface.corners());
+    let nearest = NearestTriangle::new(surface.facets());
     let boundary = hex_boundary(&mesh.hexes);
     let distance = |p: Point| nearest.closest_point(p).map_or(f64::NAN, |q| q.distance(p));
     let farthest = |quad: &[NodeId; 4]| {
         let corners = quad.map(|n| mesh.positions[n.index()]);
         let middle = corners.iter().sum::<Point>() / 4.0;
-        corners.into_iter().map(distance).fold(distance(middle), f64::max)
+        let sides = (0..4).map(|k| corners[k].midpoint(corners[(k + 1) % 4]));
+        corners.into_iter().chain(sides).map(distance).fold(distance(middle), f64::max)
     };
     let mut distances = vec![f32::NAN; mesh.hexes.len()];
     for (number, batch) in boundary.chunks(BATCH).enumerate() {
@@ -127,22 +141,6 @@ pub fn distances_of_hexes(
     Ok(distances)
 }
 
-impl Triangles<'_> {
-    fn corners(&self) -> impl Iterator<Item = [Point; 3]> {
-        self.triangles.iter().map(|t| t.map(|n| self.positions[n as usize]))
-    }
-
-    /// The nodes in use and the centroids.
-    fn samples(&self) -> Vec<Point> {
-        let mut used = vec![false; self.positions.len()];
-        for &node in self.triangles.as_flattened() {
-            used[node as usize] = true;
-        }
-        let nodes = self.positions.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p);
-        nodes.chain(self.corners().map(|[a, b, c]| (a + b + c) / 3.0)).collect()
-    }
-}
-
 /// Samples of a surface, and how far each is from another one.
 struct Samples {
     places: Vec<Point>,
@@ -150,10 +148,13 @@ struct Samples {
 }
 
 impl Samples {
-    fn measured(from: Triangles<'_>, to: Triangles<'_>, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let nearest = NearestTriangle::within(to.corners(), monitor)?;
-        let places = from.samples();
-        let distance = |p: Point| nearest.closest_point(p).map_or(f64::INFINITY, |q| q.distance(p));
+    /// How far each of these is from what is nearest to it on the other surface, if that has anything.
+    fn measured(
+        places: Vec<Point>,
+        nearest: &(dyn Fn(Point) -> Option<Point> + Sync),
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let distance = |p: Point| nearest(p).map_or(f64::INFINITY, |q| q.distance(p));
         let mut distances: Vec<f64> = Vec::with_capacity(places.len());
         for batch in places.chunks(BATCH) {
             monitor.proceed()?;
@@ -232,10 +233,9 @@ mod tests {
     #[test]
     fn of_parallel_triangles() {
         let distances = between(&corners(0.0), &corners(2.0));
-        assert_eq!(
-            distances.mesh_to_surface,
-            Distance { max: 2.0, mean: 2.0, rms: 2.0, farthest: [1.0, 1.0, 0.0], samples: 4 }
-        );
+        let Distance { max, mean, rms, farthest, samples } = distances.mesh_to_surface;
+        // At the corners, once on the legs and twice on the longest side, and in the two halves.
+        assert_eq!((max, mean, rms, farthest[2], samples), (2.0, 2.0, 2.0, 0.0, 9));
         assert_eq!(distances.hausdorff(), 2.0);
     }
 
@@ -257,7 +257,7 @@ mod tests {
         let one = between(&corners(0.0), &corners(2.0));
         let two = one.joined(&between(&corners(0.0), &corners(1.0)));
         let Distance { max, mean, rms, farthest, samples } = two.mesh_to_surface;
-        assert_eq!((max, mean, farthest, samples), (2.0, 1.5, [1.0, 1.0, 0.0], 8));
+        assert_eq!((max, mean, farthest, samples), (2.0, 1.5, one.mesh_to_surface.farthest, 18));
         assert!((rms - 2.5_f64.sqrt()).abs() < 1e-12);
         assert_eq!(Distances::none().joined(&one), one);
     }
@@ -271,9 +271,9 @@ mod tests {
         };
         let (distances, beyond) = measured(1.9);
         assert_eq!(distances, between(&mesh, &surface));
-        let [a, b, c, _] = mesh;
-        let of_mesh = [a, b, c, Point::new(1.0, 1.0, 0.0)];
-        assert_eq!(beyond, [of_mesh, of_mesh.map(|p| p.with_z(2.0))].concat());
+        let of_mesh = triangle(&mesh).samples(triangle(&mesh).mean_side(), &Silent).unwrap();
+        let of_surface: Vec<_> = of_mesh.iter().map(|p| p.with_z(2.0)).collect();
+        assert_eq!(beyond, [of_mesh, of_surface].concat());
         assert_eq!(measured(2.0).1, []);
     }
 
@@ -282,7 +282,7 @@ mod tests {
         let mut half = corners(0.0);
         half[1].x = 1.0;
         let distances = between(&half, &corners(0.0));
-        assert_eq!(distances.mesh_to_surface.max, 0.0);
+        assert!(distances.mesh_to_surface.max < 1e-12);
         assert!(distances.surface_to_mesh.max > 1.0);
         assert_eq!(distances.hausdorff(), distances.surface_to_mesh.max);
     }

@@ -13,6 +13,7 @@ mod orientation;
 mod polygon;
 mod quad;
 pub mod quality;
+mod samples;
 pub(crate) mod second_order;
 mod tags;
 pub mod topology;
@@ -20,7 +21,7 @@ mod volume;
 mod weld;
 
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
-pub use distance::{Distance, Distances, Triangles, distances_of_hexes};
+pub use distance::{Distance, Distances, distances_of_hexes};
 pub use face_groups::FaceGroups;
 pub use faces::Faces;
 #[cfg(feature = "bindings")]
@@ -33,6 +34,8 @@ pub use id::{EdgeId, FaceId, HexId, NodeId};
 pub use orientation::{InvertedHexes, orient_hexes};
 pub use polygon::{Features, PolygonMesh};
 pub use quad::QuadMesh;
+pub(crate) use samples::Sampled;
+pub use samples::{Quads, Triangles};
 pub use second_order::{SecondOrder, SecondOrderHex};
 pub use tags::{Group, TagSet, Tags};
 pub use topology::Edges;

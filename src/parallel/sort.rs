@@ -16,6 +16,14 @@ pub fn sort<T: Ord + Copy + Send + Sync>(items: &mut [T]) {
     merge_runs(items, &mut merged, false);
 }
 
+/// The places of numbers that are not negative, the greatest first; of those that are equal the first.
+pub fn greatest_first(numbers: impl Iterator<Item = f64>) -> impl Iterator<Item = usize> {
+    // The bits of such numbers are in their order.
+    let mut order: Vec<(u64, u32)> = numbers.map(|number| !number.to_bits()).zip(0..).collect();
+    order.sort_unstable();
+    order.into_iter().map(|(_, k)| k as usize)
+}
+
 /// Merges the sorted runs of [`FEW`] items, into `other` if `there`, else into `items`. Both hold the runs.
 fn merge_runs<T: Ord + Copy + Send + Sync>(items: &mut [T], other: &mut [T], there: bool) {
     let runs = items.len().div_ceil(FEW);

@@ -4,18 +4,18 @@
 //! around there ended, and begins the next one with the facets there: with a short distance from the first most of the tree
 //! need not be looked at. What is found does not depend on where it began.
 
+mod facets;
 mod pack;
 
 use std::cell::Cell;
 use std::ops::Range;
 
-use fearless_simd::prelude::*;
 use fearless_simd::{Simd, dispatch};
 
 use super::Point;
 use super::boxes::{Boxes, Cube};
-use super::closest::closest_on_four;
-use super::lanes::{LANES, Row, Rows, SINGLES, Vectors, level};
+use super::lanes::{LANES, SINGLES, level};
+pub(crate) use facets::{Facet, QuadPatch};
 
 /// More boxes than ever wait: seven a level, of which 2^31 facets have no more than 11 below the root of a group, and their
 /// groups no more than 11 above.
@@ -35,56 +35,24 @@ thread_local! {
     static LAST: [Cell<u32>; REMEMBERED] = const { [const { Cell::new(0) }; REMEMBERED] };
 }
 
-/// A piece of a surface.
-pub(crate) trait Facet: Sized {
-    /// How many are looked at together: `LANES` at most.
-    const TOGETHER: usize;
-
-    /// Points whose convex hull it is in.
-    fn corners(&self) -> &[Point];
-
-    /// The points that are closest to `p` of `TOGETHER` facets at most, and how far they are from it, squared. Where there are
-    /// fewer the rest say nothing.
-    fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row);
-}
-
-/// A triangle.
-impl Facet for [Point; 3] {
-    const TOGETHER: usize = LANES;
-
-    fn corners(&self) -> &[Point] {
-        self
-    }
-
-    #[inline(always)]
-    fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
-        let mut four = [&facets[0].facet; LANES];
-        for (lane, numbered) in four.iter_mut().zip(facets) {
-            *lane = &numbered.facet;
-        }
-        let [a, b, c, d] = four;
-        let corners = [
-            Vectors::of(simd, [a[0], b[0], c[0], d[0]]),
-            Vectors::of(simd, [a[1], b[1], c[1], d[1]]),
-            Vectors::of(simd, [a[2], b[2], c[2], d[2]]),
-        ];
-        let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
-        (points.store(), squared.to_array())
-    }
-}
-
 /// Finds, among many facets, the one that is nearest to a point: a tree of boxes, eight of which are looked at side by side.
 /// General R-trees keep a heap for each question, and take several times as long; optimisation asks millions.
 #[derive(Debug)]
 pub(crate) struct NearestFacet<F> {
+    tree: Tree,
+    /// In the order of the tree.
+    facets: Vec<Numbered<F>>,
+}
+
+/// What holds facets of any kind.
+#[derive(Debug)]
+struct Tree {
     all: Part,
     /// What may be searched by itself.
     groups: Vec<Part>,
     branches: Vec<Branch>,
     /// The first facet of each leaf, and how many facets there are.
     leaves: Vec<u32>,
-    /// In the order of the tree.
-    facets: Vec<Numbered<F>>,
     /// The cube around all.
     cube: Cube,
     /// The greatest coordinate, either way.
@@ -93,6 +61,9 @@ pub(crate) struct NearestFacet<F> {
 
 /// Finds the nearest of many triangles.
 pub(crate) type NearestTriangle = NearestFacet<[Point; 3]>;
+
+/// Finds the nearest of many quads.
+pub(crate) type NearestQuad = NearestFacet<QuadPatch>;
 
 /// A facet, and its number: its place in the order in which they were given, if that was not told.
 #[derive(Clone, Debug)]
@@ -170,7 +141,7 @@ pub(crate) struct Nearest {
 impl<F: Facet> NearestFacet<F> {
     /// The facet that is nearest to `p`, the first of those that are equally near; `None` if there are no facets.
     pub(crate) fn nearest(&self, p: Point) -> Option<Nearest> {
-        self.found(&self.all, p).map(|(numbered, point)| numbered.with(point))
+        self.found(&self.tree.all, p).map(|(numbered, point)| numbered.with(point))
     }
 
     /// The same, of the facets of a group.
@@ -178,12 +149,12 @@ impl<F: Facet> NearestFacet<F> {
     /// # Panics
     /// If there is no such group.
     pub(crate) fn nearest_of(&self, group: usize, p: Point) -> Option<Nearest> {
-        self.found(&self.groups[group], p).map(|(numbered, point)| numbered.with(point))
+        self.found(&self.tree.groups[group], p).map(|(numbered, point)| numbered.with(point))
     }
 
     /// The same, as the facet itself.
     pub(crate) fn nearest_facet(&self, p: Point) -> Option<&F> {
-        self.found(&self.all, p).map(|(numbered, _)| &numbered.facet)
+        self.found(&self.tree.all, p).map(|(numbered, _)| &numbered.facet)
     }
 
     /// As [`nearest`](Self::nearest), of the facets whose distance, squared, is no greater than `most`.
@@ -191,7 +162,7 @@ impl<F: Facet> NearestFacet<F> {
         if self.facets.is_empty() {
             return None;
         }
-        let Closest { place, index, point, .. } = self.nearest_from(self.all.root, NOWHERE, most, p);
+        let Closest { place, index, point, .. } = self.nearest_from(self.tree.all.root, NOWHERE, most, p);
         (place != NOWHERE).then_some(Nearest { facet: index as usize, point })
     }
 
@@ -202,13 +173,13 @@ impl<F: Facet> NearestFacet<F> {
         }
         // Searches that share a place only spoil each other's beginning.
         let of_part = std::ptr::from_ref(part).addr() / align_of_val(part);
-        let memory = of_part.wrapping_add(self.cube.part(p)) % REMEMBERED;
+        let memory = of_part.wrapping_add(self.tree.cube.part(p)) % REMEMBERED;
         let Range { start, end } = part.leaves;
         let first = LAST.with(|last| last[memory].get()).clamp(start, end - 1);
         let best = self.nearest_from(part.root, first, f64::INFINITY, p);
         LAST.with(|last| last[memory].set(best.leaf));
         // There is none if no distance can be compared.
-        let place = if best.place == NOWHERE { self.leaves[start as usize] } else { best.place };
+        let place = if best.place == NOWHERE { self.tree.leaves[start as usize] } else { best.place };
         Some((&self.facets[place as usize], best.point))
     }
 
@@ -221,10 +192,10 @@ impl<F: Facet> NearestFacet<F> {
 
     #[inline(always)]
     fn nearer<S: Simd>(&self, simd: S, root: Below, first: u32, most: f64, p: Point) -> Closest {
-        let rounding = ROUNDING * (self.extent + p.abs().max_element());
+        let rounding = ROUNDING * (self.tree.extent + p.abs().max_element());
         let mut best = Closest { distance: most, place: NOWHERE, index: NOWHERE, leaf: 0, point: p };
-        let mut limit = self.cube.limit(best.limit(rounding));
-        let at = self.cube.place(simd, p);
+        let mut limit = self.tree.cube.limit(best.limit(rounding));
+        let at = self.tree.cube.place(simd, p);
         let mut waiting = [0; WAITING];
         waiting[0] = root.at(0.0);
         let mut count = 1;
@@ -241,7 +212,7 @@ impl<F: Facet> NearestFacet<F> {
             }
             let place = next as u32 / 2;
             if next.is_multiple_of(2) {
-                let Branch { boxes, below } = &self.branches[place as usize];
+                let Branch { boxes, below } = &self.tree.branches[place as usize];
                 let (distances, mut found) = boxes.within(simd, &at, limit);
                 let lowest = count;
                 while found != 0 {
@@ -258,7 +229,7 @@ impl<F: Facet> NearestFacet<F> {
                     count += 1;
                 }
             } else if (place != first || count == 1) && self.look_at(simd, place, p, &mut best) {
-                limit = self.cube.limit(best.limit(rounding));
+                limit = self.tree.cube.limit(best.limit(rounding));
             }
         }
         best
@@ -267,7 +238,7 @@ impl<F: Facet> NearestFacet<F> {
     /// Takes the best facet of a leaf, if that is better. Was it?
     #[inline(always)]
     fn look_at<S: Simd>(&self, simd: S, leaf: u32, p: Point, best: &mut Closest) -> bool {
-        let [start, end] = [self.leaves[leaf as usize], self.leaves[leaf as usize + 1]];
+        let [start, end] = [self.tree.leaves[leaf as usize], self.tree.leaves[leaf as usize + 1]];
         let facets = &self.facets[start as usize..end as usize];
         let (points, squared) = F::closest_of(simd, facets, p);
         let mut is_better = false;

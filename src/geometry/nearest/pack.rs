@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::super::boxes::{Boxes, Cube};
 use super::super::lanes::SINGLES;
 use super::super::{Aabb, Point};
-use super::{Below, Branch, Facet, NearestFacet, Numbered, Part};
+use super::{Below, Branch, Facet, NearestFacet, Numbered, Part, Tree};
 use crate::{Cancelled, Monitor, Silent};
 
 /// The monitor is asked before more facets than this are split.
@@ -33,7 +33,7 @@ impl<F: Facet> NearestFacet<F> {
     ) -> Result<Self, Cancelled> {
         let facets: Vec<_> = (0..).zip(facets).map(|(k, facet)| Numbered::new(k, facet)).collect();
         let all = 0..facets.len();
-        Self::packed(facets, [all], monitor)
+        Self::packed(facets, &[all], monitor)
     }
 
     /// An index of groups of facets, each with its number, which may be searched by themselves too. Numbers ascend in a group.
@@ -56,56 +56,79 @@ impl<F: Facet> NearestFacet<F> {
         };
         let places: Vec<_> = groups.into_iter().map(&mut add).collect();
         facets.shrink_to_fit();
-        Self::packed(facets, places, monitor)
+        Self::packed(facets, &places, monitor)
     }
 
     fn packed(
-        facets: Vec<Numbered<F>>,
-        groups: impl IntoIterator<Item = Range<usize>>,
+        mut facets: Vec<Numbered<F>>,
+        groups: &[Range<usize>],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let bounds = around(&facets);
+        for places in groups {
+            rearrange(&mut facets[places.clone()], monitor)?;
+        }
+        let shelves = Shelves {
+            count: facets.len(),
+            together: F::TOGETHER,
+            around: &|places| around(&facets[places]),
+            monitor,
+        };
+        Ok(Self { tree: Tree::packed(groups, &shelves)?, facets })
+    }
+}
+
+/// Facets in the order of a tree.
+struct Shelves<'a> {
+    count: usize,
+    /// How many are in a leaf.
+    together: usize,
+    /// The box around those at some places.
+    around: &'a dyn Fn(Range<usize>) -> Aabb,
+    monitor: &'a dyn Monitor,
+}
+
+impl Tree {
+    fn packed(groups: &[Range<usize>], facets: &Shelves<'_>) -> Result<Self, Cancelled> {
+        let bounds = (facets.around)(0..facets.count);
         let mut tree = Self {
             all: Part { root: Below::leaf(0), leaves: 0..0 },
             groups: Vec::new(),
             branches: Vec::new(),
             leaves: Vec::new(),
-            facets,
             cube: Cube::around(&bounds),
             extent: bounds.min.abs().max(bounds.max.abs()).max_element(),
         };
         let mut roots = Vec::new();
         for places in groups {
-            rearrange(&mut tree.facets[places.clone()], monitor)?;
             let first = tree.leaves.len() as u32;
-            let (root, bounds) = tree.add(places, monitor)?;
+            let (root, bounds) = tree.add(places.clone(), facets)?;
             roots.push((root, bounds));
             tree.groups.push(Part { root, leaves: first..tree.leaves.len() as u32 });
         }
         let middle = |(index, (_, bounds)): (u32, &(Below, Aabb))| Middle { at: bounds.center(), index };
         let mut order: Vec<Middle> = (0..).zip(&roots).map(middle).collect();
-        sort(&mut order, 1, monitor)?;
+        sort(&mut order, 1, facets.monitor)?;
         let in_order: Vec<_> = order.into_iter().map(|root| roots[root.index as usize]).collect();
         let (root, _) = tree.join(&in_order);
         tree.all = Part { root, leaves: 0..tree.leaves.len() as u32 };
-        tree.leaves.push(tree.facets.len() as u32);
+        tree.leaves.push(facets.count as u32);
         tree.branches.shrink_to_fit();
         tree.leaves.shrink_to_fit();
         Ok(tree)
     }
 
     /// Adds what is below the box around the facets at these places. That box too.
-    fn add(&mut self, places: Range<usize>, monitor: &dyn Monitor) -> Result<(Below, Aabb), Cancelled> {
+    fn add(&mut self, places: Range<usize>, facets: &Shelves<'_>) -> Result<(Below, Aabb), Cancelled> {
         if places.len() > MANY {
-            monitor.proceed()?;
+            facets.monitor.proceed()?;
         }
-        if places.len() <= F::TOGETHER {
+        if places.len() <= facets.together {
             self.leaves.push(places.start as u32);
-            return Ok((Below::leaf(self.leaves.len() - 1), around(&self.facets[places])));
+            return Ok((Below::leaf(self.leaves.len() - 1), (facets.around)(places)));
         }
-        let full = full(places.len(), F::TOGETHER);
+        let full = full(places.len(), facets.together);
         let starts = places.clone().step_by(full);
-        self.branch(starts, |tree, start| tree.add(start..places.end.min(start + full), monitor))
+        self.branch(starts, |tree, start| tree.add(start..places.end.min(start + full), facets))
     }
 
     /// Adds what is above the roots of groups.

@@ -29,6 +29,20 @@ fn the_tree_finds_what_a_walk_over_all_finds() {
 }
 
 #[test]
+fn a_quad_is_found_by_the_nearest_of_its_triangles() {
+    let quads: Vec<_> = sheet(9).chunks(2).map(|t| QuadPatch([t[0][0], t[0][1], t[1][1], t[0][2]])).collect();
+    let index = NearestQuad::new(quads.iter().copied());
+    for k in 0..200 {
+        let p =
+            Point::new(f64::from(k % 7) / 4.0 - 0.3, f64::from(k % 11) / 7.0 - 0.2, f64::from(k % 5) / 9.0);
+        let walked = quads.iter().map(|quad| quad.distance_squared(p)).fold(f64::INFINITY, f64::min);
+        let nearest = index.nearest(p).unwrap();
+        assert_eq!(nearest.point.distance_squared(p), walked, "{p}");
+        assert_eq!(quads[nearest.facet].distance_squared(p), walked, "{p}");
+    }
+}
+
+#[test]
 fn the_first_of_equal_triangles_is_found() {
     let twice: Vec<[Point; 3]> = sheet(5).into_iter().chain(sheet(5)).collect();
     let index = NearestTriangle::new(twice.iter().copied());
@@ -44,13 +58,13 @@ fn all_is_full_in_a_tree_but_for_what_is_last() {
     for n in [1, 2, 4, 5, 11, 16, 17, 40] {
         let tree = NearestTriangle::new(sheet(n));
         let (mut left, mut branches) = ((2 * n * n).div_ceil(LANES), 0);
-        assert_eq!(tree.leaves.len(), left + 1);
+        assert_eq!(tree.tree.leaves.len(), left + 1);
         while left > 1 {
             // What would be alone in a branch is in the one above.
             branches += left / SINGLES + usize::from(left % SINGLES > 1);
             left = left.div_ceil(SINGLES);
         }
-        assert_eq!(tree.branches.len(), branches);
+        assert_eq!(tree.tree.branches.len(), branches);
     }
 }
 

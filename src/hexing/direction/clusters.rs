@@ -6,6 +6,7 @@
 //! 3. Planes, and the axes of extruded surfaces, are clustered from the largest down; the two ends of a direction are one.
 
 use crate::geometry::{Point, area_vector};
+use crate::parallel::greatest_first;
 use crate::solid::{SolidModel, Surface, SurfaceClass};
 
 /// The cosine of 0.1 degrees: normals that differ by less are of one plane.
@@ -28,6 +29,11 @@ const PLANES: usize = 4096;
 pub(super) struct Weighted {
     pub direction: Point,
     pub area: f64,
+}
+
+/// Puts those of the largest area first.
+fn largest_first(all: &mut [Weighted]) {
+    all.sort_by(|a, b| b.area.total_cmp(&a.area));
 }
 
 /// Are two unit directions one, up to the sign?
@@ -58,7 +64,7 @@ pub(super) fn planes(solid: &SolidModel) -> Vec<Weighted> {
         (size > WIDER * beside).then(|| Weighted { direction: area / size, area: size })
     };
     let mut planes: Vec<Weighted> = facets.into_iter().zip(beside).filter_map(of_plane).collect();
-    planes.sort_by(|a, b| b.area.total_cmp(&a.area));
+    largest_first(&mut planes);
     planes.truncate(PLANES);
     planes
 }
@@ -67,12 +73,11 @@ pub(super) fn planes(solid: &SolidModel) -> Vec<Weighted> {
 fn facets(solid: &SolidModel) -> (Vec<u32>, Vec<Point>) {
     let areas: Vec<Point> = (0..solid.triangles().len()).map(|t| area_vector(&solid.corners_of(t))).collect();
     let sizes: Vec<f64> = areas.iter().map(|a| a.length()).collect();
-    let mut by_size: Vec<u32> = (0..areas.len() as u32).collect();
-    by_size.sort_unstable_by(|&a, &b| sizes[b as usize].total_cmp(&sizes[a as usize]).then(a.cmp(&b)));
+    let by_size = greatest_first(sizes.iter().copied()).map(|t| t as u32);
     let mut facet_of = vec![u32::MAX; areas.len()];
     let mut facets = Vec::new();
     let mut front = Vec::new();
-    for &seed in &by_size {
+    for seed in by_size {
         if facet_of[seed as usize] != u32::MAX {
             continue;
         }
@@ -115,7 +120,7 @@ pub(super) fn means(solid: &SolidModel) -> Vec<Weighted> {
 
 /// Clusters of directions, the largest first. A cluster has the direction of its largest member.
 pub(super) fn clusters(mut members: Vec<Weighted>) -> Vec<Weighted> {
-    members.sort_by(|a, b| b.area.total_cmp(&a.area));
+    largest_first(&mut members);
     let mut clusters: Vec<Weighted> = Vec::new();
     for member in members {
         match clusters.iter_mut().find(|c| is_parallel(c.direction, member.direction)) {
@@ -123,6 +128,6 @@ pub(super) fn clusters(mut members: Vec<Weighted>) -> Vec<Weighted> {
             None => clusters.push(member),
         }
     }
-    clusters.sort_by(|a, b| b.area.total_cmp(&a.area));
+    largest_first(&mut clusters);
     clusters
 }

@@ -91,7 +91,7 @@ pub(super) const APPROACH: f64 = 0.98;
 const NEAR: f64 = 0.6;
 
 /// A course more of evening out counts where it leaves so much less between mesh and solid.
-const NEARER: f64 = 0.92;
+pub(super) const NEARER: f64 = 0.92;
 
 /// Another is made for so many rings of cells around what is far.
 const AGAIN: usize = 8;

@@ -23,7 +23,7 @@ use crate::{Cancelled, Monitor, parallel};
 
 /// What is farther apart than this share of the farthest, and than so many edges (those there, or the mean of all if that
 /// is longer), is brought nearer.
-const SHARE: f64 = 0.5;
+const SHARE: f64 = 0.7;
 const LEAST: f64 = 0.085;
 
 /// How often each node is tried, before what is inside follows, and how often that is done.
@@ -45,6 +45,11 @@ const RINGS: usize = 2;
 /// from `LEAST` edges to `MOST`. Nor worse than the worst of all, if that is below what is fair, or else that.
 const FLOORS: [f64; 2] = [0.72, 0.35];
 const MOST: f64 = 0.22;
+
+/// Or to this share of the solid's diagonal, if that is less, but so many edges at least: how coarse a mesh is excuses no
+/// distance that can be seen.
+const MOST_OF_SOLID: f64 = 0.0025;
+const LEAST_OF_MOST: f64 = 1.2 * LEAST;
 
 /// What is apart has to become less by this share of it.
 const GAIN: f64 = 0.02;
@@ -175,9 +180,10 @@ fn follow(
     Ok(sweeps)
 }
 
-/// The scaled Jacobian that is left where mesh and solid are so many edges apart.
-fn floor(distance: f64) -> f64 {
-    let share = ((distance - LEAST) / (MOST - LEAST)).clamp(0.0, 1.0);
+/// The scaled Jacobian that is left where mesh and a solid of that diagonal are so far apart, all in edges.
+fn floor(distance: f64, diagonal: f64) -> f64 {
+    let most = MOST.min((MOST_OF_SOLID * diagonal).max(LEAST_OF_MOST));
+    let share = ((distance - LEAST) / (most - LEAST)).clamp(0.0, 1.0);
     FLOORS[0] + share * (FLOORS[1] - FLOORS[0])
 }
 
@@ -242,7 +248,9 @@ impl Places<'_> {
         let from = problem.points[node as usize];
         star.gather(problem, node, 0.0);
         let shape = Weights { doublings: 0, mu: 0.0 };
-        let floor = floor(self.apart.farthest(node) / problem.edge(node)).max(self.worst);
+        let in_edges = |length: f64| length / problem.edge(node);
+        let [apart, diagonal] = [self.apart.farthest(node), self.apart.solid.diagonal()].map(in_edges);
+        let floor = floor(apart, diagonal).max(self.worst);
         let before = star.read(from, shape, f64::INFINITY)?.worst;
         let probes = self.apart.probes(problem, node);
         let mut least = probes.error * (1.0 - GAIN);
@@ -369,8 +377,12 @@ mod tests {
     /// Nodes that may leave the solid do so by no more than half of how far the mesh may be from it.
     #[test]
     fn leashes_are_as_long_as_the_distance_allowed() {
-        let (solid, mesh) = house(0.0);
+        let (solid, mut mesh) = house(0.3);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let target = OnSolid::new(&solid, &on.reduction);
+        for (place, &anchor) in mesh.positions.iter_mut().zip(&on.anchors) {
+            *place = target.foot(anchor, *place).map_or(*place, |foot| foot.point);
+        }
         let leashed: Vec<Hold> =
             held(&on).into_iter().map(|hold| if hold == Hold::Held { Hold::Leashed } else { hold }).collect();
         let off = |max_distance: f64| {
@@ -412,9 +424,12 @@ mod tests {
 
     #[test]
     fn cells_may_be_worse_where_mesh_and_solid_are_farther_apart() {
-        let least = [0.0, LEAST, 0.5 * (LEAST + MOST), MOST, 1.0].map(floor);
-        assert_eq!([least[0], least[1], least[3], least[4]], [FLOORS[0], FLOORS[0], FLOORS[1], FLOORS[1]]);
-        assert!((least[2] - 0.5 * (FLOORS[0] + FLOORS[1])).abs() < 1e-12);
+        let middle = 0.5 * (FLOORS[0] + FLOORS[1]);
+        for (diagonal, most) in [(1e3, MOST), (0.15 / MOST_OF_SOLID, 0.15), (1.0, LEAST_OF_MOST)] {
+            let least = [0.0, LEAST, 0.5 * (LEAST + most), most, 1.0].map(|apart| floor(apart, diagonal));
+            let expected = [FLOORS[0], FLOORS[0], middle, FLOORS[1], FLOORS[1]];
+            assert!(least.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{diagonal}: {least:?}");
+        }
     }
 
     /// Stops the work when it has come to the last step.

@@ -1,8 +1,7 @@
 //! Parts of a problem that are judged each for itself: how far mesh and solid are from each other there.
 
 use super::holds::{Hold, Holds};
-use super::survey::halves;
-use crate::geometry::{Point, closest_on_triangle};
+use crate::geometry::{Point, QuadPatch};
 use crate::mesh::topology::Sets;
 use crate::optimize::Problem;
 
@@ -28,12 +27,9 @@ pub(super) struct Mark {
 impl Mark {
     /// How far the boundary around its node is from it.
     fn distance(&self, problem: &Problem) -> f64 {
-        let halves = self.quads.iter().flat_map(halves);
-        let distance = |half: [u32; 3]| {
-            let corners = half.map(|n| problem.points[n as usize]);
-            closest_on_triangle(self.place, corners).distance(self.place)
-        };
-        halves.map(distance).fold(f64::INFINITY, f64::min)
+        let patch = |quad: &[u32; 4]| QuadPatch(quad.map(|n| problem.points[n as usize]));
+        let squared = self.quads.iter().map(|quad| patch(quad).distance_squared(self.place));
+        squared.fold(f64::INFINITY, f64::min).sqrt()
     }
 }
 

@@ -1,9 +1,11 @@
 //! `hexmill check`.
 
+use std::path::Path;
+
 use hexmill::io::{AnyMesh, Document};
 use hexmill::mesh::check::{DefectCount, Severity};
 use hexmill::mesh::topology::hex_boundary;
-use hexmill::mesh::{Distances, PolygonMesh, Triangles, Volumes};
+use hexmill::mesh::{Distances, Quads, Triangles, Volumes};
 
 use super::args::CheckArgs;
 use super::failure::Failure;
@@ -33,10 +35,7 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
         Some(path) => {
             let (positions, triangles) = progress.stage("read", || load_triangles(path))?;
             let surface = Triangles { positions: &positions, triangles: &triangles };
-            let faces = surface_of(document);
-            let triangles = triangles_of(&faces, &args.mesh)?;
-            let mesh = Triangles { positions: &faces.positions, triangles: &triangles };
-            Some(Distances::between(mesh, surface, &progress).expect("nothing stops the command line"))
+            Some(distances(document, surface, &args.mesh, &progress)?)
         }
         None => None,
     };
@@ -49,15 +48,23 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     verdict(args, &report)
 }
 
-/// The faces of a document, or the boundary of its hexes; nodes inside come along, in no face.
-fn surface_of(document: Document) -> PolygonMesh {
-    let AnyMesh::Hexes(mesh) = document.mesh else {
-        return document.into_surface().expect("hexes are told apart here");
+/// Distances between the faces of a document, or the boundary of its hexes, and a surface.
+fn distances(
+    document: Document,
+    surface: Triangles<'_>,
+    path: &Path,
+    progress: &Progress,
+) -> Result<Distances, Failure> {
+    let measured = if let AnyMesh::Hexes(mesh) = &document.mesh {
+        let quads: Vec<_> = hex_boundary(&mesh.hexes).into_iter().map(|(quad, _)| quad).collect();
+        Distances::of_quads(Quads { positions: &mesh.positions, quads: &quads }, surface, progress)
+    } else {
+        let faces = document.into_surface().expect("hexes are told apart here");
+        let triangles = triangles_of(&faces, path)?;
+        let mesh = Triangles { positions: &faces.positions, triangles: &triangles };
+        Distances::between(mesh, surface, progress)
     };
-    let mut surface = PolygonMesh::default();
-    hex_boundary(&mesh.hexes).into_iter().for_each(|(face, _)| surface.push_face(face));
-    surface.positions = mesh.positions;
-    surface
+    Ok(measured.expect("nothing stops the command line"))
 }
 
 /// Refuses a mesh that does not conform.
