@@ -76,7 +76,7 @@ impl<'a> Survey<'a> {
         let has_moved = self.follow(mesh);
         let of_mesh = std::mem::take(&mut self.of_mesh);
         self.of_mesh = parallel::try_collect(self.quads.len(), monitor, |k| {
-            if has_moved[k] { self.from_solid(k) } else { of_mesh[k] }
+            if has_moved[k] { self.apart(k) } else { of_mesh[k] }
         })?;
         self.nearest = self.nearest_quads(&has_moved, monitor)?;
         let quad_of = |k: usize| self.nearest[k].0 as usize;
@@ -109,7 +109,7 @@ impl<'a> Survey<'a> {
     }
 
     /// How far a quad's corners, its middle and those of the sides that it has ascending are from the solid.
-    fn from_solid(&self, quad: usize) -> f64 {
+    fn apart(&self, quad: usize) -> f64 {
         let corners = self.quad(quad);
         let is_ours = |&k: &usize| self.quads[quad][k] < self.quads[quad][(k + 1) % 4];
         let sides = (0..4).filter(is_ours).map(|k| corners[k].midpoint(corners[(k + 1) % 4]));
