@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::samples::{Quads, Sampled, Triangles};
 use super::topology::hex_boundary;
 use super::{HexMesh, NodeId};
-use crate::geometry::{NearestFacet, NearestTriangle, Point};
+use crate::geometry::{NearestFacet, NearestTriangle, Point, QuadPatch};
 use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// The stage that a monitor hears of.
@@ -125,7 +125,7 @@ pub fn distances_of_hexes(
     let distance = |p: Point| nearest.closest_point(p).map_or(f64::NAN, |q| q.distance(p));
     let farthest = |quad: &[NodeId; 4]| {
         let corners = quad.map(|n| mesh.positions[n.index()]);
-        let middle = corners.iter().sum::<Point>() / 4.0;
+        let middle = QuadPatch(corners).middle();
         let sides = (0..4).map(|k| corners[k].midpoint(corners[(k + 1) % 4]));
         corners.into_iter().chain(sides).map(distance).fold(distance(middle), f64::max)
     };

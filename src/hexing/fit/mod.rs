@@ -90,7 +90,8 @@ const EVEN: f64 = 0.94;
 pub(super) const APPROACH: f64 = 0.98;
 const NEAR: f64 = 0.6;
 
-/// A course more of evening out counts where it leaves so much less between mesh and solid.
+/// A course more of evening out, and an approach that ends before it is near enough, count where they leave so much less
+/// between mesh and solid.
 pub(super) const NEARER: f64 = 0.92;
 
 /// Another is made for so many rings of cells around what is far.

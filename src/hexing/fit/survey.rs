@@ -3,9 +3,11 @@
 //! Both are sampled: the quads at their nodes, their middles and the middles of their sides, the solid as where distances are
 //! told. Each of its samples belongs to the quad that is nearest to it.
 
+use std::collections::HashSet;
+
 use crate::geometry::{NearestQuad, Point, QuadPatch};
 use crate::mesh::topology::Bins;
-use crate::mesh::{HexMesh, NodeId, Sampled, Triangles, first_of_same};
+use crate::mesh::{HexMesh, NodeId, Sampled, Triangles};
 use crate::solid::{SolidModel, SurfaceId};
 use crate::{Cancelled, Monitor, parallel};
 
@@ -158,10 +160,15 @@ impl<'a> Survey<'a> {
 /// one for those around.
 fn samples(edge: f64, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<Point>, Cancelled> {
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
-    let samples = surface.samples(edge, monitor)?;
-    let cube = |p: &Point| ((p - solid.bounds().min) / (DENSE * edge)).floor();
-    let first = first_of_same(&samples.iter().map(cube).collect::<Vec<_>>());
-    Ok((0..).zip(samples).zip(first).filter(|((k, _), first)| k == first).map(|((_, p), _)| p).collect())
+    let (origin, size) = (solid.bounds().min, DENSE * edge);
+    let mut taken = HashSet::new();
+    let mut sparse = Vec::new();
+    for batch in surface.samples(edge, monitor)?.chunks(BATCH) {
+        monitor.proceed()?;
+        let cube = |p: Point| ((p - origin) / size).to_array().map(|x| x as i64);
+        sparse.extend(batch.iter().filter(|&&p| taken.insert(cube(p))));
+    }
+    Ok(sparse)
 }
 
 /// Where the corners of faces are.
