@@ -28,7 +28,7 @@ pub use eigen::symmetric_eigen;
 pub use frame::Frame;
 pub use gjk::{Convex, hull_within};
 pub use hull::{Corners, Hull};
-pub(crate) use nearest::{Facet, Nearest, NearestFacet, NearestQuad, NearestTriangle, Numbered, QuadPatch};
+pub(crate) use nearest::{CutQuad, Facet, Nearest, NearestFacet, NearestQuad, NearestTriangle, Numbered};
 pub use quad_hull::QuadHull;
 pub use solid::Solid;
 pub use triangulate::{area_vector, triangulate};

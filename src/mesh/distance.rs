@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::samples::{Quads, Sampled, Triangles};
 use super::topology::hex_boundary;
 use super::{HexMesh, NodeId};
-use crate::geometry::{NearestFacet, NearestTriangle, Point, QuadPatch};
+use crate::geometry::{CutQuad, NearestFacet, NearestTriangle, Point};
 use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// The stage that a monitor hears of.
@@ -78,14 +78,12 @@ impl Distances {
         let edge = mesh.mean_side();
         let (mesh_to_surface, mut beyond) = {
             let nearest = NearestFacet::within(surface.facets(), monitor)?;
-            Samples::measured(mesh.samples(edge, monitor)?, &|p| nearest.closest_point(p), monitor)?
-                .told(limit)
+            Measured::of(mesh, edge, limit, &|p| nearest.closest_point(p), monitor)?.told()
         };
         monitor.checkpoint(MEASURING, 0.5)?;
         let nearest = NearestFacet::within(mesh.facets(), monitor)?;
-        let places = surface.samples(edge, monitor)?;
         let (surface_to_mesh, of_surface) =
-            Samples::measured(places, &|p| nearest.closest_point(p), monitor)?.told(limit);
+            Measured::of(surface, edge, limit, &|p| nearest.closest_point(p), monitor)?.told();
         monitor.progress(MEASURING, 1.0);
         beyond.extend(of_surface);
         Ok((Self { mesh_to_surface, surface_to_mesh }, beyond))
@@ -110,8 +108,8 @@ impl Distances {
     }
 }
 
-/// For each hex how far its boundary faces are from a surface: the greatest distance of their nodes, their middles
-/// and those of their sides, in model units. NaN for hexes without boundary faces, or if the surface is empty.
+/// For each hex how far its boundary faces are from a surface: the greatest distance of their nodes and
+/// of the middles of their sides and diagonals, in model units. NaN for hexes without boundary faces, or if the surface is empty.
 ///
 /// # Errors
 /// [`Cancelled`] when the monitor says so.
@@ -125,9 +123,9 @@ pub fn distances_of_hexes(
     let distance = |p: Point| nearest.closest_point(p).map_or(f64::NAN, |q| q.distance(p));
     let farthest = |quad: &[NodeId; 4]| {
         let corners = quad.map(|n| mesh.positions[n.index()]);
-        let middle = QuadPatch(corners).middle();
         let sides = (0..4).map(|k| corners[k].midpoint(corners[(k + 1) % 4]));
-        corners.into_iter().chain(sides).map(distance).fold(distance(middle), f64::max)
+        let places = corners.into_iter().chain(sides).chain(CutQuad(corners).middles());
+        places.map(distance).fold(f64::NAN, f64::max)
     };
     let mut distances = vec![f32::NAN; mesh.hexes.len()];
     for (number, batch) in boundary.chunks(BATCH).enumerate() {
@@ -141,46 +139,56 @@ pub fn distances_of_hexes(
     Ok(distances)
 }
 
-/// Samples of a surface, and how far each is from another one.
-struct Samples {
-    places: Vec<Point>,
-    distances: Vec<f64>,
+/// What is known of the distances of samples.
+struct Measured {
+    max: f64,
+    sum: f64,
+    squares: f64,
+    farthest: Point,
+    samples: usize,
+    /// Those that are farther than the limit.
+    beyond: Vec<Point>,
 }
 
-impl Samples {
-    /// How far each of these is from what is nearest to it on the other surface, if that has anything.
-    fn measured(
-        places: Vec<Point>,
+impl Measured {
+    /// Measures how far samples of a surface are from what is nearest to them on another one, if that has anything.
+    fn of(
+        sampled: impl Sampled,
+        edge: f64,
+        limit: f64,
         nearest: &(dyn Fn(Point) -> Option<Point> + Sync),
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let distance = |p: Point| nearest(p).map_or(f64::INFINITY, |q| q.distance(p));
-        let mut distances: Vec<f64> = Vec::with_capacity(places.len());
-        for batch in places.chunks(BATCH) {
-            monitor.proceed()?;
-            parallel::extend(&mut distances, batch.len(), |k| distance(batch[k]));
-        }
-        Ok(Self { places, distances })
+        let [max, sum, squares] = [0.0; 3];
+        let mut all = Self { max, sum, squares, farthest: Point::ZERO, samples: 0, beyond: Vec::new() };
+        let mut take = |batch: &[Point]| {
+            for (&p, d) in batch.iter().zip(parallel::collect(batch.len(), |k| distance(batch[k]))) {
+                (all.sum, all.squares) = (all.sum + d, all.squares + d * d);
+                if d >= all.max {
+                    (all.max, all.farthest) = (d, p);
+                }
+                if d > limit {
+                    all.beyond.push(p);
+                }
+            }
+            all.samples += batch.len();
+        };
+        sampled.sample(edge, monitor, &mut take)?;
+        Ok(all)
     }
 
-    /// The distance, and those that are farther than `limit`.
-    fn told(self, limit: f64) -> (Distance, Vec<Point>) {
-        let distance = self.distance();
-        let all = self.places.into_iter().zip(self.distances);
-        (distance, all.filter(|(_, d)| *d > limit).map(|(p, _)| p).collect())
-    }
-
-    fn distance(&self) -> Distance {
-        let Self { places, distances } = self;
-        let farthest = (0..places.len()).max_by(|&i, &j| distances[i].total_cmp(&distances[j]));
-        let count = places.len() as f64;
-        Distance {
-            max: farthest.map_or(0.0, |i| distances[i]),
-            mean: distances.iter().sum::<f64>() / count,
-            rms: (distances.iter().map(|d| d * d).sum::<f64>() / count).sqrt(),
-            farthest: farthest.map_or([0.0; 3], |i| places[i].to_array()),
-            samples: places.len(),
-        }
+    /// The distance, and the samples beyond the limit.
+    fn told(self) -> (Distance, Vec<Point>) {
+        let count = self.samples as f64;
+        let distance = Distance {
+            max: self.max,
+            mean: self.sum / count,
+            rms: (self.squares / count).sqrt(),
+            farthest: self.farthest.to_array(),
+            samples: self.samples,
+        };
+        (distance, self.beyond)
     }
 }
 
@@ -234,8 +242,8 @@ mod tests {
     fn of_parallel_triangles() {
         let distances = between(&corners(0.0), &corners(2.0));
         let Distance { max, mean, rms, farthest, samples } = distances.mesh_to_surface;
-        // At the corners, once on the legs and twice on the longest side, and in the two halves.
-        assert_eq!((max, mean, rms, farthest[2], samples), (2.0, 2.0, 2.0, 0.0, 9));
+        // At the corners, twice on the legs and four times on the longest side, in the middle and in the two halves.
+        assert_eq!((max, mean, rms, farthest[2], samples), (2.0, 2.0, 2.0, 0.0, 14));
         assert_eq!(distances.hausdorff(), 2.0);
     }
 
@@ -257,7 +265,7 @@ mod tests {
         let one = between(&corners(0.0), &corners(2.0));
         let two = one.joined(&between(&corners(0.0), &corners(1.0)));
         let Distance { max, mean, rms, farthest, samples } = two.mesh_to_surface;
-        assert_eq!((max, mean, farthest, samples), (2.0, 1.5, one.mesh_to_surface.farthest, 18));
+        assert_eq!((max, mean, farthest, samples), (2.0, 1.5, one.mesh_to_surface.farthest, 28));
         assert!((rms - 2.5_f64.sqrt()).abs() < 1e-12);
         assert_eq!(Distances::none().joined(&one), one);
     }
@@ -271,7 +279,9 @@ mod tests {
         };
         let (distances, beyond) = measured(1.9);
         assert_eq!(distances, between(&mesh, &surface));
-        let of_mesh = triangle(&mesh).samples(triangle(&mesh).mean_side(), &Silent).unwrap();
+        let mut of_mesh: Vec<Point> = Vec::new();
+        let edge = triangle(&mesh).mean_side();
+        triangle(&mesh).sample(edge, &Silent, &mut |batch| of_mesh.extend(batch)).unwrap();
         let of_surface: Vec<_> = of_mesh.iter().map(|p| p.with_z(2.0)).collect();
         assert_eq!(beyond, [of_mesh, of_surface].concat());
         assert_eq!(measured(2.0).1, []);

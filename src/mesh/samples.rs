@@ -1,7 +1,7 @@
 //! Surfaces, and points that stand for them where distances are measured.
 
 use super::NodeId;
-use crate::geometry::{Facet, Point, QuadPatch};
+use crate::geometry::{CutQuad, Facet, Point};
 use crate::{Cancelled, Monitor};
 
 /// A surface of triangles.
@@ -13,7 +13,7 @@ pub struct Triangles<'a> {
     pub triangles: &'a [[u32; 3]],
 }
 
-/// A surface of quads, each four triangles around the mean of its corners.
+/// A surface of quads, each cut in two along either diagonal: the farther cut counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Quads<'a> {
     /// Points, of which quads need not use all.
@@ -24,21 +24,22 @@ pub struct Quads<'a> {
 
 /// Sides have a sample each so many sides of the mesh, and triangles with longer sides than the second are cut into pieces,
 /// each with a sample.
-const STEP: f64 = 0.6;
+const STEP: f64 = 0.3;
 const PIECE: f64 = 1.2;
 
 /// Samples of a surface so large that it has more with such steps are farther from each other.
 const MOST: f64 = 4e6;
 
-/// Samples between two questions to the monitor.
+/// Samples that are given at once.
 const BATCH: usize = 1 << 14;
 
 /// A surface that is sampled, and searched for what is nearest to samples of another one.
 pub(crate) trait Sampled: Copy {
     type Facet: Facet + Copy + Send + Sync;
 
-    /// Some triangles.
-    type Triangles: AsRef<[[Point; 3]]> + IntoIterator<Item = [Point; 3]>;
+    /// Some points, and some triangles.
+    type Middles: IntoIterator<Item = Point>;
+    type Triangles: IntoIterator<Item = [Point; 3]>;
 
     /// What its faces are between.
     fn positions(&self) -> &[Point];
@@ -49,8 +50,11 @@ pub(crate) trait Sampled: Copy {
     /// The faces.
     fn facets(&self) -> impl Iterator<Item = Self::Facet>;
 
-    /// The middle of a face, and the triangles that it is taken for.
-    fn parts(facet: Self::Facet) -> (Point, Self::Triangles);
+    /// The middles of a face, which are sampled however small it is.
+    fn middles(facet: Self::Facet) -> Self::Middles;
+
+    /// The triangles that it may be cut into.
+    fn triangles(facet: Self::Facet) -> Self::Triangles;
 
     /// The mean length of the sides of the faces.
     fn mean_side(&self) -> f64 {
@@ -61,80 +65,87 @@ pub(crate) trait Sampled: Copy {
         sum / f64::from(count.max(1))
     }
 
-    /// The nodes in use, points of the sides, and the middles of the faces or the centroids of their pieces, for a mesh with sides
-    /// of about this length.
-    fn samples(&self, edge: f64, monitor: &dyn Monitor) -> Result<Vec<Point>, Cancelled> {
+    /// Gives the nodes in use, points of the sides, the middles of the faces, and the centroids of the pieces of large ones, for a
+    /// mesh with sides of about this length, some at a time.
+    fn sample(
+        &self,
+        edge: f64,
+        monitor: &dyn Monitor,
+        take: &mut dyn FnMut(&[Point]),
+    ) -> Result<(), Cancelled> {
         let positions = self.positions();
         let edge = edge.max(self.least_edge());
+        let mut giving = Giving { batch: Vec::with_capacity(BATCH), take, monitor };
         let mut used = vec![false; positions.len()];
         self.sides().for_each(|[node, _]| used[node as usize] = true);
-        let nodes = positions.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p);
-        let mut taken = Taken { samples: nodes.collect(), edge, pieces: Vec::new() };
+        giving.all(positions.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p))?;
         let long = self.sides().filter(|&side| length(positions, side) > STEP * edge);
-        taken.along(positions, long.map(|[a, b]| [NodeId(a.min(b)), NodeId(a.max(b))]).collect());
-        for facet in self.facets() {
-            let (middle, triangles) = Self::parts(facet);
-            taken.within(middle, triangles.as_ref(), monitor)?;
+        for side in once(long.map(|[a, b]| [NodeId(a.min(b)), NodeId(a.max(b))]).collect()) {
+            let [a, b] = side.map(|n| positions[n.index()]);
+            let steps = (a.distance(b) / (STEP * edge)).ceil() as u32;
+            giving.all((1..steps).map(|k| a.lerp(b, f64::from(k) / f64::from(steps))))?;
         }
-        Ok(taken.samples)
+        let mut pieces: Vec<[Point; 3]> = Vec::new();
+        for facet in self.facets() {
+            giving.all(Self::middles(facet))?;
+            if longest(facet.corners()) > PIECE * edge {
+                pieces.extend(Self::triangles(facet));
+            }
+            while let Some(piece) = pieces.pop() {
+                match halved(piece, PIECE * edge) {
+                    Some(halves) => pieces.extend(halves),
+                    None => giving.all([centroid(piece)])?,
+                }
+            }
+        }
+        giving.flush()
     }
 
     /// Such that there are not too many samples.
     fn least_edge(&self) -> f64 {
         let around: f64 = self.sides().map(|side| length(self.positions(), side)).sum();
-        let triangles = self.facets().flat_map(|facet| Self::parts(facet).1);
+        let triangles = self.facets().flat_map(Self::triangles);
         let area: f64 = triangles.map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum();
         (around / MOST).max((area / MOST).sqrt())
     }
 }
 
-/// The samples that were taken.
-struct Taken {
-    samples: Vec<Point>,
-    edge: f64,
-    /// Of a face that is being cut.
-    pieces: Vec<[Point; 3]>,
+/// Samples on their way.
+struct Giving<'a> {
+    batch: Vec<Point>,
+    take: &'a mut dyn FnMut(&[Point]),
+    monitor: &'a dyn Monitor,
 }
 
-impl Taken {
-    /// Points of sides, which are told by their two nodes, the lesser first; of one that is told twice once.
-    fn along(&mut self, positions: &[Point], mut sides: Vec<[NodeId; 2]>) {
-        sides.sort_unstable();
-        sides.dedup();
-        for side in sides {
-            let [a, b] = side.map(|n| positions[n.index()]);
-            let steps = (a.distance(b) / (STEP * self.edge)).ceil() as u32;
-            self.samples.extend((1..steps).map(|k| a.lerp(b, f64::from(k) / f64::from(steps))));
-        }
-    }
-
-    /// The middle of a face, or the centroids of its pieces if it is large.
-    fn within(
-        &mut self,
-        middle: Point,
-        triangles: &[[Point; 3]],
-        monitor: &dyn Monitor,
-    ) -> Result<(), Cancelled> {
-        if triangles.iter().all(|&t| halved(t, PIECE * self.edge).is_none()) {
-            self.samples.push(middle);
-            return Ok(());
-        }
-        self.pieces.extend(triangles);
-        while let Some(piece) = self.pieces.pop() {
-            match halved(piece, PIECE * self.edge) {
-                Some(halves) => self.pieces.extend(halves),
-                None => self.samples.push(centroid(piece)),
-            }
-            if self.samples.len().is_multiple_of(BATCH) {
-                monitor.proceed()?;
+impl Giving<'_> {
+    fn all(&mut self, samples: impl IntoIterator<Item = Point>) -> Result<(), Cancelled> {
+        for sample in samples {
+            self.batch.push(sample);
+            if self.batch.len() == BATCH {
+                self.flush()?;
             }
         }
         Ok(())
     }
+
+    fn flush(&mut self) -> Result<(), Cancelled> {
+        self.monitor.proceed()?;
+        (self.take)(&self.batch);
+        self.batch.clear();
+        Ok(())
+    }
+}
+
+/// Sides, which are told by their two nodes, the lesser first, without those that were there before.
+fn once(mut sides: Vec<[NodeId; 2]>) -> Vec<[NodeId; 2]> {
+    sides.sort_unstable();
+    sides.dedup();
+    sides
 }
 
 impl Sampled for Triangles<'_> {
     type Facet = [Point; 3];
+    type Middles = [Point; 1];
     type Triangles = [[Point; 3]; 1];
 
     fn positions(&self) -> &[Point] {
@@ -149,13 +160,18 @@ impl Sampled for Triangles<'_> {
         self.triangles.iter().map(|t| t.map(|n| self.positions[n as usize]))
     }
 
-    fn parts(facet: [Point; 3]) -> (Point, Self::Triangles) {
-        (centroid(facet), [facet])
+    fn middles(facet: [Point; 3]) -> [Point; 1] {
+        [centroid(facet)]
+    }
+
+    fn triangles(facet: [Point; 3]) -> [[Point; 3]; 1] {
+        [facet]
     }
 }
 
 impl Sampled for Quads<'_> {
-    type Facet = QuadPatch;
+    type Facet = CutQuad;
+    type Middles = [Point; 2];
     type Triangles = [[Point; 3]; 4];
 
     fn positions(&self) -> &[Point] {
@@ -166,12 +182,16 @@ impl Sampled for Quads<'_> {
         self.quads.iter().flat_map(|quad| (0..4).map(|k| [quad[k].0, quad[(k + 1) % 4].0]))
     }
 
-    fn facets(&self) -> impl Iterator<Item = QuadPatch> {
-        self.quads.iter().map(|quad| QuadPatch(quad.map(|n| self.positions[n.index()])))
+    fn facets(&self) -> impl Iterator<Item = CutQuad> {
+        self.quads.iter().map(|quad| CutQuad(quad.map(|n| self.positions[n.index()])))
     }
 
-    fn parts(facet: QuadPatch) -> (Point, Self::Triangles) {
-        (facet.middle(), facet.triangles())
+    fn middles(facet: CutQuad) -> [Point; 2] {
+        facet.middles()
+    }
+
+    fn triangles(facet: CutQuad) -> [[Point; 3]; 4] {
+        facet.triangles()
     }
 }
 
@@ -183,6 +203,12 @@ fn centroid([a, b, c]: [Point; 3]) -> Point {
 fn length(positions: &[Point], side: [u32; 2]) -> f64 {
     let [a, b] = side.map(|n| positions[n as usize]);
     a.distance(b)
+}
+
+/// The length of the longest side of a face with these corners.
+fn longest(corners: &[Point]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(a, b)| a.distance_squared(*b)).fold(0.0, f64::max).sqrt()
 }
 
 /// A triangle cut in two across its longest side, if that is longer than this.
@@ -199,6 +225,13 @@ mod tests {
     use super::*;
     use crate::Silent;
 
+    /// All at once.
+    fn samples(surface: impl Sampled, edge: f64) -> Vec<Point> {
+        let mut samples = Vec::new();
+        surface.sample(edge, &Silent, &mut |batch| samples.extend(batch)).unwrap();
+        samples
+    }
+
     const SQUARE: [Point; 5] = [
         Point::new(0.0, 0.0, 0.0),
         Point::new(4.0, 0.0, 0.0),
@@ -213,7 +246,7 @@ mod tests {
 
     #[test]
     fn small_faces_have_samples_at_nodes_and_centroids_alone() {
-        let samples = square().samples(10.0, &Silent).unwrap();
+        let samples = samples(square(), 20.0);
         let [a, b, c, d, _] = SQUARE;
         assert_eq!(samples, [a, b, c, d, (a + b + c) / 3.0, (a + c + d) / 3.0]);
     }
@@ -227,9 +260,8 @@ mod tests {
         let quads = [[0, 1, 2, 3].map(NodeId)];
         let quad = Quads { positions: &SQUARE, quads: &quads };
         for edge in [0.1, 0.3, 1.0] {
-            let samples =
-                [square().samples(edge, &Silent), needle.samples(edge, &Silent), quad.samples(edge, &Silent)];
-            let [square, needle, quad] = samples.map(Result::unwrap);
+            let [square, needle, quad] =
+                [samples(square(), edge), samples(needle, edge), samples(quad, edge)];
             for k in 0..1000 {
                 let p = Point::new(f64::from(k % 37) / 9.0, f64::from(k % 41) / 10.0, 0.0);
                 for (samples, p) in [(&square, p), (&quad, p), (&needle, p.with_y(0.0))] {
@@ -237,14 +269,18 @@ mod tests {
                     assert!(nearest <= edge, "{nearest} from {p} with edges of {edge}");
                 }
             }
-            assert!((square.len() as f64) < 25.0 + 6.0 * 16.0 / (edge * edge), "{} {edge}", square.len());
+            assert!(
+                (square.len() as f64) < 25.0 + 80.0 / edge + 6.0 * 16.0 / (edge * edge),
+                "{} {edge}",
+                square.len()
+            );
             assert!((needle.len() as f64) < 25.0 + 80.0 / edge, "{} {edge}", needle.len());
         }
     }
 
     #[test]
     fn sides_are_sampled_once() {
-        let samples = square().samples(2.0, &Silent).unwrap();
+        let samples = samples(square(), 2.0);
         let diagonal = samples.iter().filter(|p| p.x == p.y && p.x > 0.0 && p.x < 4.0).count();
         assert_eq!(diagonal, (32_f64.sqrt() / (STEP * 2.0)).ceil() as usize - 1);
         let mut places: Vec<_> = samples.iter().map(|p| p.to_array().map(f64::to_bits)).collect();
@@ -254,12 +290,14 @@ mod tests {
     }
 
     #[test]
-    fn a_quad_has_a_sample_in_its_middle() {
+    fn a_quad_has_a_sample_in_the_middle_of_each_diagonal() {
         let mut positions = SQUARE;
         positions[2].z = 4.0;
         let quads = [[0, 1, 2, 3].map(NodeId)];
         let quad = Quads { positions: &positions, quads: &quads };
-        assert!(quad.samples(10.0, &Silent).unwrap().contains(&Point::new(2.0, 2.0, 1.0)));
+        let middles = [0.0, 2.0].map(|z| Point::new(2.0, 2.0, z));
+        let samples = samples(quad, 20.0);
+        assert!(samples.len() == 6 && middles.iter().all(|middle| samples.contains(middle)), "{samples:?}");
         assert_eq!(quad.mean_side(), (8.0 + 2.0 * 32_f64.sqrt()) / 4.0);
     }
 
@@ -274,6 +312,6 @@ mod tests {
             assert!(area <= most && 24.0 / edge <= most, "{edge}");
         }
         let point = Triangles { positions: &[Point::ZERO], triangles: &[[0, 0, 0]] };
-        assert_eq!(point.samples(0.0, &Silent).unwrap(), [Point::ZERO; 2]);
+        assert_eq!(samples(point, 0.0), [Point::ZERO; 2]);
     }
 }

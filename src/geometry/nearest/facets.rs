@@ -45,32 +45,40 @@ impl Facet for [Point; 3] {
     }
 }
 
-/// A quad as four triangles around its middle. That is on the quad's bilinear patch, whereas the halves that a diagonal cuts
-/// it into are both on one side of it.
+/// A quad that is cut in two along either diagonal. A point is as far from it as from the farther of the two cuts: so it is no
+/// farther from the quad however that is drawn. Its bilinear patch lies between the cuts, and is no farther either.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct QuadPatch(pub(crate) [Point; 4]);
+pub(crate) struct CutQuad(pub(crate) [Point; 4]);
 
-impl QuadPatch {
-    /// The mean of the corners.
-    #[inline(always)]
-    pub(crate) fn middle(&self) -> Point {
-        self.0.iter().sum::<Point>() / 4.0
+impl CutQuad {
+    /// The middles of the diagonals.
+    pub(crate) fn middles(&self) -> [Point; 2] {
+        let [a, b, c, d] = self.0;
+        [a.midpoint(c), b.midpoint(d)]
     }
 
-    /// The triangles.
+    /// The triangles of one cut, then those of the other.
     pub(crate) fn triangles(&self) -> [[Point; 3]; 4] {
-        let (corners, middle) = (self.0, self.middle());
-        std::array::from_fn(|k| [corners[k], corners[(k + 1) % 4], middle])
+        let [a, b, c, d] = self.0;
+        [[a, b, c], [a, c, d], [b, c, d], [b, d, a]]
     }
 
     /// How far a point is from it, squared.
     pub(crate) fn distance_squared(&self, p: Point) -> f64 {
-        let to = |t| closest_on_triangle(p, t).distance_squared(p);
-        self.triangles().into_iter().map(to).fold(f64::INFINITY, f64::min)
+        farther(self.triangles().map(|t| closest_on_triangle(p, t).distance_squared(p))).1
     }
 }
 
-impl Facet for QuadPatch {
+/// Given how far the triangles are, squared: the one that is nearest of the farther cut, and how far that is.
+#[inline(always)]
+fn farther(squared: [f64; 4]) -> (usize, f64) {
+    let nearer = |i: usize, j: usize| if squared[j] < squared[i] { j } else { i };
+    let [one, other] = [nearer(0, 1), nearer(2, 3)];
+    let farther = if squared[other] > squared[one] { other } else { one };
+    (farther, squared[farther])
+}
+
+impl Facet for CutQuad {
     const TOGETHER: usize = 1;
 
     fn corners(&self) -> &[Point] {
@@ -79,18 +87,13 @@ impl Facet for QuadPatch {
 
     #[inline(always)]
     fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
-        let quad = facets[0].facet;
-        let [a, b, c, d] = quad.0;
-        let middle = Vectors::splat(simd, quad.middle().to_array());
-        let sides = [Vectors::of(simd, [a, b, c, d]), Vectors::of(simd, [b, c, d, a]), middle];
-        let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), sides);
+        let [s, t, u, v] = facets[0].facet.triangles();
+        let corners = [0, 1, 2].map(|k| Vectors::of(simd, [s[k], t[k], u[k], v[k]]));
+        let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
         let (mut points, mut squared) = (points.store(), squared.to_array());
-        for lane in 1..LANES {
-            if squared[lane] < squared[0] {
-                squared[0] = squared[lane];
-                points.iter_mut().for_each(|row: &mut Row| row[0] = row[lane]);
-            }
-        }
+        let lane;
+        (lane, squared[0]) = farther(squared);
+        points.iter_mut().for_each(|row: &mut Row| row[0] = row[lane]);
         (points, squared)
     }
 }

@@ -15,7 +15,7 @@ use fearless_simd::{Simd, dispatch};
 use super::Point;
 use super::boxes::{Boxes, Cube};
 use super::lanes::{LANES, SINGLES, level};
-pub(crate) use facets::{Facet, QuadPatch};
+pub(crate) use facets::{CutQuad, Facet};
 
 /// More boxes than ever wait: seven a level, of which 2^31 facets have no more than 11 below the root of a group, and their
 /// groups no more than 11 above.
@@ -63,7 +63,7 @@ struct Tree {
 pub(crate) type NearestTriangle = NearestFacet<[Point; 3]>;
 
 /// Finds the nearest of many quads.
-pub(crate) type NearestQuad = NearestFacet<QuadPatch>;
+pub(crate) type NearestQuad = NearestFacet<CutQuad>;
 
 /// A facet, and its number: its place in the order in which they were given, if that was not told.
 #[derive(Clone, Debug)]

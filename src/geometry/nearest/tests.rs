@@ -29,8 +29,8 @@ fn the_tree_finds_what_a_walk_over_all_finds() {
 }
 
 #[test]
-fn a_quad_is_found_by_the_nearest_of_its_triangles() {
-    let quads: Vec<_> = sheet(9).chunks(2).map(|t| QuadPatch([t[0][0], t[0][1], t[1][1], t[0][2]])).collect();
+fn a_quad_is_found_by_the_cut_that_is_farther() {
+    let quads: Vec<_> = sheet(9).chunks(2).map(|t| CutQuad([t[0][0], t[0][1], t[1][1], t[0][2]])).collect();
     let index = NearestQuad::new(quads.iter().copied());
     for k in 0..200 {
         let p =
@@ -39,6 +39,22 @@ fn a_quad_is_found_by_the_nearest_of_its_triangles() {
         let nearest = index.nearest(p).unwrap();
         assert_eq!(nearest.point.distance_squared(p), walked, "{p}");
         assert_eq!(quads[nearest.facet].distance_squared(p), walked, "{p}");
+    }
+}
+
+/// Above a corner that is bent up the other diagonal's middle is a half up, its own is on the ground.
+#[test]
+fn a_quad_is_as_far_as_the_farther_cut() {
+    let quad = CutQuad([Point::ZERO, Point::X, Point::new(1.0, 1.0, 1.0), Point::Y]);
+    let [low, high] = [0.0, 0.5].map(|z| Point::new(0.5, 0.5, z));
+    assert_eq!(quad.middles(), [high, low]);
+    for middle in quad.middles() {
+        let distances = quad.triangles().map(|t| closest_on_triangle(middle, t).distance(middle));
+        let of_cuts = [0, 2].map(|k| f64::min(distances[k], distances[k + 1]));
+        assert!(of_cuts.contains(&0.0) && of_cuts.iter().any(|&d| d > 0.2), "{of_cuts:?}");
+        assert_eq!(quad.distance_squared(middle).sqrt(), of_cuts[0].max(of_cuts[1]));
+        let index = NearestQuad::new([quad]);
+        assert_eq!(index.closest_point(middle).unwrap().distance(middle), of_cuts[0].max(of_cuts[1]));
     }
 }
 
@@ -121,9 +137,23 @@ mod random {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::geometry::Aabb;
     use crate::geometry::samples::{point, points};
 
     proptest! {
+        /// What leads from one cut to the other passes through the patch.
+        #[test]
+        fn a_patch_is_no_farther_than_the_farther_cut(corners in points::<4>(1.0), p in point(2.0)) {
+            const STEPS: usize = 40;
+            let [a, b, c, d] = corners;
+            let share = |k: usize| k as f64 / STEPS as f64;
+            let at = |(i, j): (usize, usize)| a.lerp(b, share(i)).lerp(d.lerp(c, share(i)), share(j));
+            let places = (0..=STEPS).flat_map(|i| (0..=STEPS).map(move |j| at((i, j))));
+            let nearest = places.map(|place| place.distance(p)).fold(f64::INFINITY, f64::min);
+            let between = Aabb::around(&corners).size().length() / STEPS as f64;
+            prop_assert!(nearest <= CutQuad(corners).distance_squared(p).sqrt() + between);
+        }
+
         #[test]
         fn the_closest_point_agrees_with_a_search_of_all(
             triangles in prop::collection::vec(points::<3>(1.0), 1..60), p in point(2.0),

@@ -2,7 +2,7 @@
 //! [`Survey`].
 
 use super::survey::Survey;
-use crate::geometry::{Aabb, Point, QuadPatch};
+use crate::geometry::{Aabb, CutQuad, Point};
 use crate::mesh::NodeId;
 use crate::optimize::Problem;
 use crate::parallel::greatest_first;
@@ -65,7 +65,7 @@ impl<'a> Apart<'a> {
         let from = problem.points[node as usize];
         let patch = self.patch(problem, node, from);
         let quads = 0..patch.quads.len();
-        let of_quads = quads.flat_map(|own| [Probe::Middle(own), Probe::Side(own)]);
+        let of_quads = quads.flat_map(|own| [Probe::Diagonal(own), Probe::Side(own)]);
         let of_mesh = of_quads.chain([Probe::Node]);
         let all = self.samples(node).map(|(own, p)| Probe::Sample(own, p)).chain(of_mesh);
         let all: Vec<Probed> = all
@@ -73,20 +73,18 @@ impl<'a> Apart<'a> {
                 let squared = self.distance_squared(&patch, from, probe);
                 let reach = match probe {
                     Probe::Sample(..) | Probe::Node => 1.0,
-                    Probe::Side(_) => 0.5,
-                    Probe::Middle(_) => 0.25,
+                    Probe::Side(_) | Probe::Diagonal(_) => 0.5,
                 };
                 Probed { probe, squared, distance: squared.sqrt(), reach }
             })
             .collect();
         let order = greatest_first(all.iter().map(|probed| probed.squared));
         let probes: Vec<Probed> = order.map(|k| all[k]).collect();
-        let error = probes.iter().map(|probed| probed.squared * probed.squared).sum();
+        let error = probes.iter().map(|probed| cubed(probed.squared)).sum();
         Probes { from, probes, error }
     }
 
-    /// What is apart with the node at `at`, if that is less than `limit`: the sum of the fourth powers of all distances, so
-    /// that the greatest count.
+    /// What is apart with the node at `at`, if that is less than `limit`: the sum of the sixth powers of all distances.
     pub(super) fn error(
         &self,
         problem: &Problem,
@@ -106,7 +104,7 @@ impl<'a> Apart<'a> {
         for probed in &probes.probes {
             rest -= probed.least(moved);
             let squared = self.distance_squared(&patch, at, probed.probe);
-            error += squared * squared;
+            error += cubed(squared);
             if error + rest.max(0.0) >= limit {
                 return None;
             }
@@ -122,8 +120,8 @@ impl<'a> Apart<'a> {
         };
         match probe {
             Probe::Sample(own, p) => patch.distance_squared(own, p),
-            Probe::Middle(own) => from_solid(patch.quads[own].patch.middle()),
-            Probe::Side(own) => from_solid(at.midpoint(patch.quads[own].next)),
+            Probe::Diagonal(own) => from_solid(at.midpoint(patch.quads[own].corner(2))),
+            Probe::Side(own) => from_solid(at.midpoint(patch.quads[own].corner(1))),
             Probe::Node => from_solid(at),
         }
     }
@@ -140,7 +138,7 @@ impl<'a> Apart<'a> {
         let of_quad = |&q: &u32| {
             let quad = self.quads[q as usize];
             let own = quad.iter().position(|&n| n == node).expect("a quad around the node");
-            PatchQuad::new(quad.map(place), own)
+            PatchQuad::new(std::array::from_fn(|k| place(quad[(own + k) % 4])))
         };
         Patch { quads: self.around[node as usize].iter().map(of_quad).collect() }
     }
@@ -166,12 +164,19 @@ struct Probed {
 }
 
 impl Probed {
-    /// The least fourth power of its distance when the node has moved so far.
+    /// The least sixth power of its distance when the node has moved so far.
     fn least(&self, moved: f64) -> f64 {
-        let distance = (self.distance - self.reach * moved).max(0.0);
-        let squared = distance * distance;
-        squared * squared
+        power((self.distance - self.reach * moved).max(0.0))
     }
+}
+
+/// The sixth power of a distance, of which all are summed so that the greatest count.
+pub(super) fn power(distance: f64) -> f64 {
+    cubed(distance * distance)
+}
+
+fn cubed(squared: f64) -> f64 {
+    squared * squared * squared
 }
 
 /// A place of mesh or solid near a node.
@@ -179,8 +184,8 @@ impl Probed {
 enum Probe {
     /// A sample of the solid that was nearest to this one of the node's quads.
     Sample(usize, Point),
-    /// The middle of this one of the node's quads.
-    Middle(usize),
+    /// The middle of the diagonal from the node through this one of its quads. The other stays where it is.
+    Diagonal(usize),
     /// The middle of the side from the node to the next of this quad. On a closed boundary each side at the node is one.
     Side(usize),
     /// The node.
@@ -205,15 +210,18 @@ struct Patch {
 /// A quad within its box.
 struct PatchQuad {
     bounds: Aabb,
-    patch: QuadPatch,
-    /// The corner behind the node.
-    next: Point,
+    cut: CutQuad,
 }
 
 impl PatchQuad {
-    /// With these corners, of which the one at `own` is the node.
-    fn new(corners: [Point; 4], own: usize) -> Self {
-        Self { bounds: Aabb::around(&corners), patch: QuadPatch(corners), next: corners[(own + 1) % 4] }
+    /// With these corners, of which the first is the node.
+    fn new(corners: [Point; 4]) -> Self {
+        Self { bounds: Aabb::around(&corners), cut: CutQuad(corners) }
+    }
+
+    /// So many corners behind the node.
+    fn corner(&self, k: usize) -> Point {
+        self.cut.0[k]
     }
 }
 
@@ -221,9 +229,9 @@ impl Patch {
     /// How far a sample is from these, of which the one at `own` is likely to be the nearest, squared.
     fn distance_squared(&self, own: usize, sample: Point) -> f64 {
         let others = self.quads[..own].iter().chain(&self.quads[own + 1..]);
-        others.fold(self.quads[own].patch.distance_squared(sample), |nearest, quad| {
+        others.fold(self.quads[own].cut.distance_squared(sample), |nearest, quad| {
             let may_be_nearer = quad.bounds.distance_squared(sample) < nearest;
-            if may_be_nearer { nearest.min(quad.patch.distance_squared(sample)) } else { nearest }
+            if may_be_nearer { nearest.min(quad.cut.distance_squared(sample)) } else { nearest }
         })
     }
 }
@@ -242,11 +250,11 @@ mod tests {
         let at = |x: f64, y: f64| Point::new(x, y, height(x, y));
         let quad = |x: f64, y: f64| [at(x, y), at(x + 1.0, y), at(x + 1.0, y + 1.0), at(x, y + 1.0)];
         let quads = [quad(0.0, 0.0), quad(-1.0, 0.0), quad(-1.0, -1.0), quad(0.0, -1.0)];
-        let patch = Patch { quads: quads.iter().map(|&quad| PatchQuad::new(quad, 0)).collect() };
+        let patch = Patch { quads: quads.into_iter().map(PatchQuad::new).collect() };
         for k in 0..300 {
             let [x, y, z] = [7, 11, 13].map(|n| f64::from(k % n) / f64::from(n) * 3.0 - 1.5);
             let sample = Point::new(x, y, z);
-            let squared = quads.iter().map(|&quad| QuadPatch(quad).distance_squared(sample));
+            let squared = quads.iter().map(|&quad| CutQuad(quad).distance_squared(sample));
             let expected = squared.fold(f64::INFINITY, f64::min);
             for own in 0..4 {
                 assert!((patch.distance_squared(own, sample) - expected).abs() < 1e-12, "{sample} {own}");
@@ -271,12 +279,12 @@ mod tests {
             for step in [0.0, 0.01, 0.1, 0.3] {
                 let way = Point::new(0.6, -0.48, 0.64) * (step * problem.edge(node));
                 let patch = apart.patch(&problem, node, from + way);
-                let fourth_power = |probed: &Probed| {
+                let sixth_power = |probed: &Probed| {
                     let squared = apart.distance_squared(&patch, from + way, probed.probe);
-                    assert!(probed.least(way.length()) <= squared * squared * (1.0 + 1e-9) + 1e-30);
-                    squared * squared
+                    assert!(probed.least(way.length()) <= cubed(squared) * (1.0 + 1e-9) + 1e-30);
+                    cubed(squared)
                 };
-                let all: f64 = probes.probes.iter().map(fourth_power).sum();
+                let all: f64 = probes.probes.iter().map(sixth_power).sum();
                 let error = |limit: f64| apart.error(&problem, node, from + way, &probes, limit);
                 assert_eq!(error(f64::INFINITY), Some(all));
                 if all > 0.0 {

@@ -7,7 +7,7 @@
 //! solid farther from each other in the end is taken back.
 
 use super::super::correspondence::{Anchor, Correspondence};
-use super::apart::{Apart, Probes};
+use super::apart::{Apart, Probes, power};
 use super::holds::Hold;
 use super::progress::Part;
 use super::rings::widen;
@@ -51,8 +51,10 @@ const MOST: f64 = 0.22;
 const MOST_OF_SOLID: f64 = 0.0025;
 const LEAST_OF_MOST: f64 = 1.2 * LEAST;
 
-/// What is apart has to become less by this share of it.
-const GAIN: f64 = 0.02;
+/// What is apart has to become less by this share of it, or of what is so many edges apart if that is less: where something is far
+/// that a node cannot help, it may still bring other things nearer.
+const GAIN: f64 = 0.1;
+const WORTH: f64 = 0.07;
 
 /// How far places around a node are from it, in edges, and those towards a sample, as shares of the way.
 const STEPS: [f64; 3] = [0.3, 0.15, 0.05];
@@ -253,7 +255,7 @@ impl Places<'_> {
         let floor = floor(apart, diagonal).max(self.worst);
         let before = star.read(from, shape, f64::INFINITY)?.worst;
         let probes = self.apart.probes(problem, node);
-        let mut least = probes.error * (1.0 - GAIN);
+        let mut least = probes.error - GAIN * probes.error.min(power(WORTH * problem.edge(node)));
         let id = problem.nodes[node as usize];
         let from_foot = |p: Point| {
             let foot = self.target.foot(self.on.anchors[id.index()], p);

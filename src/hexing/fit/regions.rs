@@ -1,7 +1,7 @@
 //! Parts of a problem that are judged each for itself: how far mesh and solid are from each other there.
 
 use super::holds::{Hold, Holds};
-use crate::geometry::{Point, QuadPatch};
+use crate::geometry::{CutQuad, Point};
 use crate::mesh::topology::Sets;
 use crate::optimize::Problem;
 
@@ -27,7 +27,7 @@ pub(super) struct Mark {
 impl Mark {
     /// How far the boundary around its node is from it.
     fn distance(&self, problem: &Problem) -> f64 {
-        let patch = |quad: &[u32; 4]| QuadPatch(quad.map(|n| problem.points[n as usize]));
+        let patch = |quad: &[u32; 4]| CutQuad(quad.map(|n| problem.points[n as usize]));
         let squared = self.quads.iter().map(|quad| patch(quad).distance_squared(self.place));
         squared.fold(f64::INFINITY, f64::min).sqrt()
     }

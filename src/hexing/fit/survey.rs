@@ -1,11 +1,11 @@
 //! How far the boundary of a mesh and a solid are from each other, quad by quad.
 //!
-//! Both are sampled: the quads at their nodes, their middles and the middles of their sides, the solid as where distances are
+//! Both are sampled: the quads at their nodes and the middles of their sides and diagonals, the solid as where distances are
 //! told. Each of its samples belongs to the quad that is nearest to it.
 
 use std::collections::HashSet;
 
-use crate::geometry::{NearestQuad, Point, QuadPatch};
+use crate::geometry::{CutQuad, NearestQuad, Point};
 use crate::mesh::topology::Bins;
 use crate::mesh::{HexMesh, NodeId, Sampled, Triangles};
 use crate::solid::{SolidModel, SurfaceId};
@@ -31,7 +31,7 @@ pub(super) struct Survey<'a> {
     /// The nodes of the boundary, ascending, and where they are.
     nodes: Vec<NodeId>,
     places: Vec<Point>,
-    /// Which of them each quad has, and how far these, its middle and those of its sides are from the solid; of a side between
+    /// Which of them each quad has, and how far these and the middles of its diagonals and sides are from the solid; of a side between
     /// two quads the one that has it ascending knows.
     quads: Vec<[u32; 4]>,
     of_mesh: Vec<f64>,
@@ -110,13 +110,13 @@ impl<'a> Survey<'a> {
         self.quads.iter().map(|quad| quad.iter().any(|&n| has_moved[n as usize])).collect()
     }
 
-    /// How far a quad's corners, its middle and those of the sides that it has ascending are from the solid.
+    /// How far a quad's corners and the middles of its diagonals and of the sides that it has ascending are from the solid.
     fn apart(&self, quad: usize) -> f64 {
         let corners = self.quad(quad);
         let is_ours = |&k: &usize| self.quads[quad][k] < self.quads[quad][(k + 1) % 4];
         let sides = (0..4).filter(is_ours).map(|k| corners[k].midpoint(corners[(k + 1) % 4]));
         let apart = |p: Point| self.solid.nearest(p).distance;
-        sides.chain(corners).chain([QuadPatch(corners).middle()]).map(apart).fold(0.0, f64::max)
+        sides.chain(corners).chain(CutQuad(corners).middles()).map(apart).fold(0.0, f64::max)
     }
 
     /// Where the corners of a quad are.
@@ -138,7 +138,7 @@ impl<'a> Survey<'a> {
         if !is_known {
             moved.clear();
         }
-        let patch = |quad: u32| QuadPatch(self.quad(quad as usize));
+        let patch = |quad: u32| CutQuad(self.quad(quad as usize));
         let of_moved = NearestQuad::within(moved.iter().map(|&quad| patch(quad)), monitor)?;
         let of_all = NearestQuad::within((0..has_moved.len() as u32).map(patch), monitor)?;
         parallel::try_collect(self.samples.len(), monitor, |k| {
@@ -161,13 +161,12 @@ impl<'a> Survey<'a> {
 fn samples(edge: f64, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<Point>, Cancelled> {
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
     let (origin, size) = (solid.bounds().min, DENSE * edge);
+    let cube = |p: Point| ((p - origin) / size).to_array().map(|x| x as i32);
     let mut taken = HashSet::new();
     let mut sparse = Vec::new();
-    for batch in surface.samples(edge, monitor)?.chunks(BATCH) {
-        monitor.proceed()?;
-        let cube = |p: Point| ((p - origin) / size).to_array().map(|x| x as i64);
+    surface.sample(edge, monitor, &mut |batch| {
         sparse.extend(batch.iter().filter(|&&p| taken.insert(cube(p))));
-    }
+    })?;
     Ok(sparse)
 }
 

@@ -118,7 +118,11 @@ fn hexes_are_checked_measured_and_hashed() {
     succeed(&folder, &["check", "cube.vtk", "--surface", "shell.obj", "--report", "d.json"]);
     let distance = &json(&folder, "d.json")["distance"];
     assert_eq!(distance["meshToSurface"]["max"], 2.0, "the far side of the boundary");
-    assert_eq!(distance["meshToSurface"]["samples"], 26 + 48 + 24, "nodes, sides and faces of the boundary");
+    assert_eq!(
+        distance["meshToSurface"]["samples"],
+        26 + 3 * 48 + 48,
+        "nodes, sides and diagonals of the boundary"
+    );
 }
 
 #[test]
