@@ -28,6 +28,37 @@ fn a_cube_is_filled_with_cubes_and_keeps_its_surfaces_as_groups() {
     assert_eq!(json(&folder, "c.json")["mesh"]["groupedFaces"], 96);
 }
 
+#[test]
+fn the_record_has_the_options_as_they_were_given() {
+    let folder = folder_holding("cube.obj", CUBE);
+    let options = |given: &[&str]| {
+        let arguments = ["hex", "cube.obj", "-o", "cube.vtu", "-e", "0.5", "--report", "r.json"];
+        succeed(&folder, &[&arguments, given].concat());
+        json(&folder, "r.json")["options"].clone()
+    };
+    let default = json!({
+        "edgeLength": 0.5, "regions": [], "background": "auto", "curvature": null, "featureAngle": 35.0,
+        "maxDistance": null, "maxLevels": 2, "maxHexes": 4_000_000, "secondOrder": null,
+    });
+    assert_eq!(options(&[]), default);
+    let region = "sphere:0,0,0,0.5:h=0.25";
+    let given = [
+        ["--region", region],
+        ["--background", "octree"],
+        ["--curvature", "15"],
+        ["--feature-angle", "40"],
+        ["--max-distance", "0.1"],
+        ["--max-levels", "1"],
+        ["--max-hexes", "50000"],
+        ["--second-order", "hex20"],
+    ];
+    let expected = json!({
+        "edgeLength": 0.5, "regions": [region], "background": "octree", "curvature": 15.0, "featureAngle": 40.0,
+        "maxDistance": 0.1, "maxLevels": 1, "maxHexes": 50_000, "secondOrder": "hex20",
+    });
+    assert_eq!(options(&given.concat()), expected);
+}
+
 /// With all that the process holds besides. Memory that was freed has to go back to the system for that.
 #[test]
 #[cfg(target_os = "linux")]

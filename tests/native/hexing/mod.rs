@@ -3,6 +3,7 @@
 mod cancel;
 mod csg;
 mod forecast;
+mod gates;
 mod motions;
 mod parts;
 mod second_order;

@@ -9,7 +9,7 @@ use hexmill::{Silent, geometry::Point};
 use super::csg::random_part;
 
 /// Meshes a part with edges of a share of its longest side.
-fn hexed(part: &PolygonMesh, share: f64) -> HexedSolid {
+pub(super) fn hexed(part: &PolygonMesh, share: f64) -> HexedSolid {
     let bounds = part.bounds();
     let edge_length = share * (bounds.max - bounds.min).max_element();
     let options = HexingOptions { edge_length, ..HexingOptions::default() };

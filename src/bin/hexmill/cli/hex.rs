@@ -19,11 +19,11 @@ use super::memory::{ADVICE, Limit};
 use super::mesh_report::{Counts, quality_table};
 use super::pages::give_back_soon;
 use super::progress::Progress;
-use super::report::Report;
+use super::report::{OptionsReport, Report, SolidOptions};
 use super::words::counted;
 
-/// Peak memory of the command in bytes a hex, about: models of 44 to 62 thousand hexes took 600 to 970, and 1,600 where the
-/// solid itself is the most of it.
+/// Peak memory of the command in bytes a hex, about: models of 44 to 62 thousand hexes took 570 to 1,200, and 1,600 where
+/// the solid itself is the most of it.
 const BYTES_PER_HEX: u64 = 1000;
 
 /// Reads a closed surface, fills it with hexes, writes and reports.
@@ -37,6 +37,7 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
     let inputs: Vec<_> = std::iter::once(("the input", args.input.as_path())).chain(regions).collect();
     args.making.prepare(&inputs)?;
     let mut options = options(args)?;
+    let told = options_report(args, &options);
     let limit = Limit::new(options.max_hexes, HexingOptions::MOST_HEXES, BYTES_PER_HEX);
     options.max_hexes = limit.cells;
     let progress = Progress::new(quiet);
@@ -56,7 +57,7 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
     let made = Made { command: "hex", input: (&loaded, before), document: &document, capped: 0 };
     let idle_regions = idle.iter().map(|&k| args.regions[k as usize].text.clone()).collect();
     let report = args.making.write(&made, format, &progress, quiet)?;
-    let report = Report { hexing: Some(work), idle_regions, ..report };
+    let report = Report { options: Some(told), hexing: Some(work), idle_regions, ..report };
     args.making.close(report, &progress, quiet, in_words)
 }
 
@@ -72,6 +73,20 @@ fn options(args: &HexArgs) -> Result<HexingOptions, Failure> {
         max_levels: args.max_levels.unwrap_or(default.max_levels),
         max_hexes: args.max_hexes.unwrap_or(default.max_hexes),
         second_order: args.second_order.map(Into::into),
+    })
+}
+
+fn options_report(args: &HexArgs, options: &HexingOptions) -> OptionsReport {
+    OptionsReport::Hexing(SolidOptions {
+        edge_length: options.edge_length,
+        regions: args.regions.iter().map(|region| region.text.clone()).collect(),
+        background: options.background,
+        curvature: options.curvature,
+        feature_angle: options.feature_angle,
+        max_distance: options.max_distance,
+        max_levels: options.max_levels,
+        max_hexes: options.max_hexes,
+        second_order: options.second_order,
     })
 }
 

@@ -83,7 +83,7 @@ fn in_words(path: &Path, report: &Report) -> String {
         lines.push(format!(
             "  {} larger than asked for: raise --max-levels, now {}",
             counted(mesh.capped, "element is", "elements are"),
-            report.options.as_ref().map_or(0, |o| o.max_levels)
+            report.options.as_ref().map_or(0, OptionsReport::max_levels)
         ));
     }
     lines.extend(report.refinement.iter().flat_map(|work| work.in_words(mesh.counts.hexes)));

@@ -11,7 +11,7 @@ use super::mesh_report::Counts;
 use super::plan::{HexesPlan, Plan, Planned};
 use super::progress::Progress;
 use super::refine::{Refined, deepest};
-use super::report::{HexRefinementReport, OptionsReport};
+use super::report::{HexRefinementReport, OptionsReport, RefinementOptions};
 use super::tell::tell;
 use super::words::counted;
 
@@ -135,7 +135,7 @@ fn options(args: &RefineArgs) -> Result<HexOptions, Failure> {
 
 /// The options, with regions as they were given: their files may be large.
 fn options_report(args: &RefineArgs, options: &HexOptions) -> OptionsReport {
-    OptionsReport {
+    OptionsReport::Refinement(RefinementOptions {
         edge_length: options.edge_length,
         levels: options.levels,
         regions: args.regions.iter().map(|region| region.text.clone()).collect(),
@@ -147,7 +147,7 @@ fn options_report(args: &RefineArgs, options: &HexOptions) -> OptionsReport {
         max_hexes: Some(options.max_hexes),
         method: Some(options.method),
         growth: Some(options.growth),
-    }
+    })
 }
 
 /// Peak memory of the command, about.

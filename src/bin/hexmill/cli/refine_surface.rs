@@ -10,7 +10,7 @@ use super::mesh_report::Counts;
 use super::plan::{Plan, Planned, QuadPlan};
 use super::progress::Progress;
 use super::refine::{Refined, deepest};
-use super::report::{DroppedFeatures, OptionsReport};
+use super::report::{DroppedFeatures, OptionsReport, RefinementOptions};
 use super::words::counted;
 
 /// Peak memory of the command in bytes a quad: encoding takes more than refinement does. Measured with 1.5 million quads
@@ -107,7 +107,7 @@ fn options(args: &RefineArgs) -> Result<QuadOptions, Failure> {
 
 /// The options, with regions as they were given: their files may be large.
 fn options_report(args: &RefineArgs, options: &QuadOptions) -> OptionsReport {
-    OptionsReport {
+    OptionsReport::Refinement(RefinementOptions {
         edge_length: options.edge_length,
         levels: options.levels,
         regions: args.regions.iter().map(|region| region.text.clone()).collect(),
@@ -119,5 +119,5 @@ fn options_report(args: &RefineArgs, options: &QuadOptions) -> OptionsReport {
         max_hexes: None,
         method: None,
         growth: None,
-    }
+    })
 }

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use hexmill::hexing::HexingReport;
+use hexmill::hexing::{Background, HexingReport};
 use hexmill::io::Format;
 use hexmill::mesh::NodeId;
-use hexmill::mesh::{Distances, Features};
+use hexmill::mesh::{Distances, Features, SecondOrderHex};
 use hexmill::refine::hex::{Added, Growth, HexForecast, Method, StageReport};
 use serde::Serialize;
 
@@ -187,10 +187,43 @@ impl HexRefinementReport {
     }
 }
 
-/// The command line's options as they were given, defaults filled in.
+/// The command line's options as they were given, defaults filled in. Regions are the strings of the command line: their
+/// files may be large.
+#[derive(Serialize)]
+#[serde(untagged)]
+pub(crate) enum OptionsReport {
+    Refinement(RefinementOptions),
+    Hexing(SolidOptions),
+}
+
+impl OptionsReport {
+    pub(crate) fn max_levels(&self) -> u8 {
+        match self {
+            Self::Refinement(options) => options.max_levels,
+            Self::Hexing(options) => options.max_levels,
+        }
+    }
+}
+
+/// Those of a solid to be meshed.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-pub(crate) struct OptionsReport {
+pub(crate) struct SolidOptions {
+    pub(crate) edge_length: f64,
+    pub(crate) regions: Vec<String>,
+    pub(crate) background: Background,
+    pub(crate) curvature: Option<f64>,
+    pub(crate) feature_angle: f64,
+    pub(crate) max_distance: Option<f64>,
+    pub(crate) max_levels: u8,
+    pub(crate) max_hexes: u64,
+    pub(crate) second_order: Option<SecondOrderHex>,
+}
+
+/// Those of a refinement.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct RefinementOptions {
     pub(crate) edge_length: Option<f64>,
     pub(crate) levels: Option<u8>,
     pub(crate) regions: Vec<String>,
