@@ -22,8 +22,8 @@ pub struct Quads<'a> {
     pub quads: &'a [[NodeId; 4]],
 }
 
-/// Sides have a sample each so many sides of the mesh, and triangles with longer sides than the second are cut into pieces,
-/// each with a sample.
+/// Samples of a side are so many mean sides of the mesh from each other at most. Faces with a side longer than the second are cut
+/// into pieces, each with a sample.
 const STEP: f64 = 0.3;
 const PIECE: f64 = 1.2;
 
@@ -37,8 +37,9 @@ const BATCH: usize = 1 << 14;
 pub(crate) trait Sampled: Copy {
     type Facet: Facet + Copy + Send + Sync;
 
-    /// Some points, and some triangles.
+    /// Those of a face.
     type Middles: IntoIterator<Item = Point>;
+    /// Those of a face.
     type Triangles: IntoIterator<Item = [Point; 3]>;
 
     /// What its faces are between.
