@@ -6,18 +6,18 @@
 
 #[path = "../tests/native/hexes/acceptance.rs"]
 mod acceptance;
+mod listening;
 #[path = "../tests/native/hexes/meshes.rs"]
 mod meshes;
 #[path = "../benches/shell.rs"]
 mod shell;
 
-use std::sync::{Mutex, OnceLock};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use acceptance::{Judged, MOST_GROWTH, World, judged, named, octants, random_on_beam, random_set, warped};
 use hexmill::io::{Document, Format, write};
 use hexmill::refine::hex::{Method, refine_hexes};
-use hexmill::{Monitor, Stage};
+use listening::{Listening, Silence};
 use rayon::prelude::*;
 
 const METHODS: [Method; 2] = [Method::One, Method::Two];
@@ -128,68 +128,6 @@ fn find(world: &World, method: Method, k: usize) -> Found {
     Found { worst, least, growth: judged.growth(), added }
 }
 
-/// How long the monitor was not asked.
-#[derive(Clone, Copy)]
-struct Silence {
-    wall: Duration,
-    /// What this process had of the processors meanwhile: what is left of `wall` where the machine does nothing else.
-    worked: Duration,
-    /// The stage that was told last.
-    after: &'static str,
-}
-
-/// When the monitor was asked last, and the longest silence.
-struct Heard {
-    last: Instant,
-    worked: Duration,
-    stage: &'static str,
-    longest: Silence,
-}
-
-struct Listening(Mutex<Heard>);
-
-impl Listening {
-    fn new() -> Self {
-        let longest = Silence { wall: Duration::ZERO, worked: Duration::ZERO, after: "nothing" };
-        Self(Mutex::new(Heard { last: Instant::now(), worked: worked(), stage: "nothing", longest }))
-    }
-
-    fn longest(self) -> Silence {
-        self.0.into_inner().expect("no panic").longest
-    }
-}
-
-impl Monitor for Listening {
-    fn progress(&self, stage: Stage, _: f64) {
-        self.0.lock().expect("no panic").stage = stage.0;
-    }
-
-    fn cancelled(&self) -> bool {
-        let mut heard = self.0.lock().expect("no panic");
-        let (now, worked) = (Instant::now(), worked());
-        let silence = Silence { wall: now - heard.last, worked: worked - heard.worked, after: heard.stage };
-        if silence.worked.min(silence.wall) > heard.longest.worked.min(heard.longest.wall) {
-            heard.longest = silence;
-        }
-        (heard.last, heard.worked) = (now, worked);
-        false
-    }
-}
-
-/// How long processors have worked on this process, to a hundredth of a second; the time of day where the system does not
-/// tell.
-fn worked() -> Duration {
-    let told = std::fs::read_to_string("/proc/self/stat").ok().and_then(|line| {
-        // The name in brackets may hold anything; the times are the 12th and the 13th word behind it.
-        let words = line.rsplit(')').next()?.split_whitespace().skip(11).take(2);
-        words.map(|ticks| ticks.parse::<u64>().ok()).sum::<Option<u64>>()
-    });
-    let since_start = || START.get_or_init(Instant::now).elapsed();
-    told.map_or_else(since_start, |ticks| Duration::from_millis(10 * ticks))
-}
-
-static START: OnceLock<Instant> = OnceLock::new();
-
 /// Refines shells, at last one in many cubes.
 fn silence() {
     for (name, n, level) in shell::SIZES.into_iter().chain([("many cubes", 60, 2)]) {
@@ -200,8 +138,8 @@ fn silence() {
             let options = shell::shell(n, level, method);
             let hexes =
                 refine_hexes(&input, &options, &listening).expect("a shell in cubes").mesh.hexes.len();
-            let Silence { wall, worked, after } = listening.longest();
-            let [wall, worked] = [wall, worked].map(|time| time.as_secs_f64() * 1e3);
+            let [Silence { wall, worked, after }, _] = listening.longest();
+            let [wall, worked] = [wall, worked].map(|seconds| 1e3 * seconds);
             println!(
                 "{name}, {method:?}: {hexes} hexes, at most {wall:.0} ms of silence, {worked:.0} ms of work, after {after}"
             );

@@ -3,16 +3,19 @@
 //! `cargo run --release --example solids -- FOLDER [CELLS] [NAME...]` meshes every OBJ file of FOLDER, or those whose
 //! names hold a NAME, with edges of 1/CELLS (48) of the longest side on one thread. `-- parts [COUNT] [CELLS] [FIRST]` does
 //! so with COUNT (200) random parts from the FIRST (0) on at a coarse edge length (CELLS is 12), and fails if one is not
-//! meshed.
+//! meshed. `-- silence FOLDER [CELLS] [NAME...]` tells of each file how long meshing goes without asking whether to stop, and
+//! without telling how far it is.
 
 #[path = "../tests/native/hexing/csg.rs"]
 mod csg;
+mod listening;
 #[path = "../tests/native/hexes/meshes.rs"]
 #[allow(dead_code)]
 mod meshes;
 
+use std::borrow::Cow;
 use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use hexmill::Silent;
@@ -20,6 +23,7 @@ use hexmill::hexing::{AttemptReport, Background, BodyReport, HexingOptions, Resu
 use hexmill::io::{Format, read};
 use hexmill::mesh::quality::aspect;
 use hexmill::mesh::{PolygonMesh, check_hexes};
+use listening::{Listening, Silence};
 
 /// The command line's allocator. `wasm-pack test` builds every example for the web, where there is none.
 #[cfg(not(target_arch = "wasm32"))]
@@ -33,6 +37,9 @@ fn main() -> Result<(), Failure> {
     let source =
         arguments.next().ok_or("wanted: FOLDER [CELLS] [NAME...], or parts [COUNT] [CELLS] [FIRST]")?;
     let rest: Vec<String> = arguments.collect();
+    if source == "silence" {
+        return silence(&rest);
+    }
     let number = |k: usize, default: f64| rest.get(k).map_or(Ok(default), |text| text.parse::<f64>());
     let mut table = Table::new()?;
     if source == "parts" {
@@ -44,12 +51,49 @@ fn main() -> Result<(), Failure> {
     } else {
         let cells = number(0, 48.0)?;
         for file in files(&source, rest.get(1..).unwrap_or_default())? {
-            let load =
-                || read(&std::fs::read(&file)?, Format::Obj)?.into_surface().ok_or("no surface".into());
-            table.row(&file.file_stem().unwrap_or_default().to_string_lossy(), cells, load);
+            table.row(&name_of(&file), cells, || loaded(&file));
         }
     }
     if table.failed > 0 { Err(format!("{} solids failed", table.failed).into()) } else { Ok(()) }
+}
+
+/// Meshes the solids of a folder on one thread, and tells of each the longest silences.
+fn silence(arguments: &[String]) -> Result<(), Failure> {
+    let folder = arguments.first().ok_or("wanted: silence FOLDER [CELLS] [NAME...]")?;
+    let cells = arguments.get(1).map_or(Ok(48.0), |text| text.parse::<f64>())?;
+    let pool = one_thread()?;
+    for file in files(folder, arguments.get(2..).unwrap_or_default())? {
+        let surface = loaded(&file)?;
+        let listening = Listening::new();
+        let options = options(&surface, cells);
+        let hexed = pool.install(|| hex_solid(&surface, &options, &listening))?;
+        println!("{}: {} hexes", name_of(&file), hexed.mesh.hexes.len());
+        for (what, Silence { wall, worked, after }) in ["asked", "told"].into_iter().zip(listening.longest())
+        {
+            let [wall, worked] = [wall, worked].map(|seconds| 1e3 * seconds);
+            println!("  {what}: at most {wall:.0} ms of silence, {worked:.0} ms of work, after {after}");
+        }
+    }
+    Ok(())
+}
+
+fn one_thread() -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build()
+}
+
+fn loaded(file: &Path) -> Result<PolygonMesh, Failure> {
+    read(&std::fs::read(file)?, Format::Obj)?.into_surface().ok_or("no surface".into())
+}
+
+fn name_of(file: &Path) -> Cow<'_, str> {
+    file.file_stem().unwrap_or_default().to_string_lossy()
+}
+
+/// Edges of so many in the longest side.
+fn options(surface: &PolygonMesh, cells: f64) -> HexingOptions {
+    let bounds = surface.bounds();
+    let edge_length = (bounds.max - bounds.min).max_element() / cells;
+    HexingOptions { edge_length, ..HexingOptions::default() }
 }
 
 /// The OBJ files of a folder, or those whose names hold one of `names`.
@@ -77,7 +121,7 @@ impl Table {
             "| solid | hexes | worst | mean | aspect | distance, % | Euler | curves | surfaces | tries | seconds |"
         );
         println!("|---|---|---|---|---|---|---|---|---|---|---|");
-        Ok(Self { pool: rayon::ThreadPoolBuilder::new().num_threads(1).build()?, failed: 0 })
+        Ok(Self { pool: one_thread()?, failed: 0 })
     }
 
     fn row(&mut self, name: &str, cells: f64, load: impl FnOnce() -> Result<PolygonMesh, Failure> + Send) {
@@ -93,10 +137,8 @@ impl Table {
 
 fn cells_of_row(surface: &PolygonMesh, cells: f64) -> Result<Vec<String>, Failure> {
     let bounds = surface.bounds();
-    let edge_length = (bounds.max - bounds.min).max_element() / cells;
-    let options = HexingOptions { edge_length, ..HexingOptions::default() };
     let start = Instant::now();
-    let hexed = hex_solid(surface, &options, &Silent)?;
+    let hexed = hex_solid(surface, &options(surface, cells), &Silent)?;
     let seconds = start.elapsed().as_secs_f64();
     if let Some(defect) = check_hexes(&hexed.mesh).first() {
         return Err(defect.to_string().into());

@@ -18,10 +18,14 @@ pub(super) fn sides_of(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Ve
     sides
 }
 
-/// A group for each surface that has one of these boundary faces, named `surface-1` for the first. The faces are 6 times
-/// the hex and the number there. `None` if they do not ascend.
-pub fn surface_groups(sides: &[(u32, SurfaceId)]) -> Option<FaceGroups> {
-    let tags = tags("surface", sides.iter().map(|(_, surface)| surface.0));
+/// A group for each surface that has one of these boundary faces, named `surface-1` for the first, and groups for the names
+/// that the surfaces have besides: none if there are none for it. The faces are 6 times the hex and the number there. `None` if they do not ascend.
+pub fn surface_groups(sides: &[(u32, SurfaceId)], names: &[Vec<String>]) -> Option<FaceGroups> {
+    let mut tags = tags("surface", sides.iter().map(|(_, surface)| surface.0));
+    for set in &mut tags.sets {
+        let surface = set.number.map_or(0, |number| number as usize - 1);
+        set.groups.extend(names.get(surface).into_iter().flatten().map(|name| Group::from(&**name)));
+    }
     FaceGroups::new(sides.iter().map(|&(side, _)| side).collect(), tags)
 }
 

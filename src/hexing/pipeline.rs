@@ -28,7 +28,8 @@ use crate::{Cancelled, Monitor, Stage};
 /// A mesh of a solid.
 #[derive(Clone, Debug)]
 pub struct HexedSolid {
-    /// The mesh. The surfaces of the solid are groups of its boundary faces: `surface-1` and so on. Where there are several
+    /// The mesh. The surfaces of the solid are groups of its boundary faces: `surface-1` and so on, and where the file has
+    /// groups that all of a surface is in, those too. Where there are several
     /// bodies they are groups of hexes, `body-1` and so on, and share no node.
     pub mesh: HexMesh,
     /// All boundary quads, outward, each with the surface that it stands for.
@@ -120,7 +121,8 @@ fn hexed(
     if mesh.hexes.is_empty() {
         return Err(HexingError::NothingLeft { edge_length: options.edge_length });
     }
-    mesh.groups = surface_groups(&sides_of(&mesh, &faces)).expect("sides are ascending");
+    mesh.groups =
+        surface_groups(&sides_of(&mesh, &faces), &found.surface_groups).expect("sides are ascending");
     if bodies.len() > 1 {
         mesh.tags = body_tags(&body_of);
     }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
-use crate::mesh::{Group, TagSet, Tags};
+use crate::mesh::{Group, MATERIAL, OBJECT, TagSet, Tags};
 
 /// The number of each of `tags.sets`, for a format that has one a cell: that of the set or of one of its groups which no set
 /// before it has, sets that have a number alone or with one name first; else the least positive number that none has. A
@@ -49,9 +49,6 @@ pub(super) fn cell_numbers(tags: &Tags) -> Vec<i64> {
 pub(super) fn has_no_names(set: &TagSet) -> bool {
     set.object.is_none() && set.groups.is_empty() && set.material.is_none()
 }
-
-pub(super) const OBJECT: &str = "object:";
-pub(super) const MATERIAL: &str = "material:";
 
 /// One of the ways in which a set names or numbers its cells.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

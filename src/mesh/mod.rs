@@ -38,6 +38,7 @@ pub(crate) use samples::Sampled;
 pub use samples::{Quads, Triangles};
 pub use second_order::{SecondOrder, SecondOrderHex};
 pub use tags::{Group, TagSet, Tags};
+pub(crate) use tags::{MATERIAL, OBJECT};
 pub use topology::Edges;
 pub use volume::{Volumes, hex_volume};
 pub use weld::first_of_same;

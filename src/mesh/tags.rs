@@ -52,6 +52,25 @@ pub struct TagSet {
     pub number: Option<i64>,
 }
 
+/// What is before the names of objects and of materials where they stand among those of groups.
+pub(crate) const OBJECT: &str = "object:";
+pub(crate) const MATERIAL: &str = "material:";
+
+impl TagSet {
+    /// Its groups in words, its object behind `object:`, its material behind `material:`; the number of a set that has none of
+    /// these.
+    pub fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = self.groups.iter().map(Group::to_string).collect();
+        for (prefix, name) in [(OBJECT, &self.object), (MATERIAL, &self.material)] {
+            names.extend(name.iter().map(|name| [prefix, name].concat()));
+        }
+        if let (true, Some(number @ (..=-1 | 1..))) = (names.is_empty(), self.number) {
+            names.push(number.to_string());
+        }
+        names
+    }
+}
+
 /// The tag set of each element. `of_element` is empty when no element is tagged; else it has one
 /// entry an element, an index into `sets`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -77,5 +96,24 @@ impl Tags {
             sets: self.sets.clone(),
             of_element: parent.iter().map(|&p| self.of_element[p as usize]).collect(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_is_known_by_its_names_or_else_by_its_number() {
+        let set = |groups: Vec<Group>, object: Option<&str>, material: Option<&str>, number: Option<i64>| {
+            let [object, material] = [object, material].map(|name| name.map(str::to_owned));
+            TagSet { object, groups, material, number }.names()
+        };
+        let groups = vec!["inlet".into(), Group::new("", 7), Group::new("wall", 3)];
+        let named = set(groups, Some("part"), Some("steel"), Some(3));
+        assert_eq!(named, ["inlet", "7", "wall", "object:part", "material:steel"]);
+        assert_eq!(set(vec![], None, None, Some(-4)), ["-4"]);
+        assert_eq!(set(vec![], None, None, Some(0)), Vec::<String>::new());
+        assert_eq!(set(vec![], None, None, None), Vec::<String>::new());
     }
 }

@@ -16,12 +16,19 @@ pub fn sort<T: Ord + Copy + Send + Sync>(items: &mut [T]) {
     merge_runs(items, &mut merged, false);
 }
 
-/// The places of numbers that are not negative, the greatest first; of those that are equal the first.
+/// The places of numbers, the greatest first, in the order of [`f64::total_cmp`]; of those that are equal the first.
 pub fn greatest_first(numbers: impl Iterator<Item = f64>) -> impl Iterator<Item = usize> {
-    // The bits of such numbers are in their order.
-    let mut order: Vec<(u64, u32)> = numbers.map(|number| !number.to_bits()).zip(0..).collect();
+    // The bits of numbers are in their order, if they are not negative, and else in the opposite one.
+    let descending = |bits: u64| if bits >> 63 == 0 { !bits ^ 1 << 63 } else { bits };
+    let mut order: Vec<(u64, u32)> = numbers.map(|number| descending(number.to_bits())).zip(0..).collect();
     order.sort_unstable();
     order.into_iter().map(|(_, k)| k as usize)
+}
+
+/// Puts items with the greatest numbers first; those with equal ones stay in their order. A library's stable sort would be
+/// compiled for each kind of item.
+pub fn put_greatest_first<T: Clone>(items: &mut Vec<T>, number: impl Fn(&T) -> f64) {
+    *items = greatest_first(items.iter().map(number)).map(|k| items[k].clone()).collect();
 }
 
 /// Merges the sorted runs of [`FEW`] items, into `other` if `there`, else into `items`. Both hold the runs.

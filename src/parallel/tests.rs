@@ -230,3 +230,28 @@ fn shares_are_all_numbers_in_order() {
         }
     });
 }
+
+/// As a stable sort does by `total_cmp`, whatever the numbers.
+#[test]
+fn the_greatest_come_first_and_equal_ones_in_their_order() {
+    let numbers = [
+        1.0,
+        -2.0,
+        0.0,
+        f64::INFINITY,
+        -0.0,
+        1.0,
+        -1e-300,
+        f64::NAN,
+        -2.0,
+        f64::NEG_INFINITY,
+        5e-324,
+        -f64::NAN,
+    ];
+    let mut expected: Vec<usize> = (0..numbers.len()).collect();
+    expected.sort_by(|&a, &b| numbers[b].total_cmp(&numbers[a]));
+    assert_eq!(greatest_first(numbers.into_iter()).collect::<Vec<_>>(), expected);
+    let mut items: Vec<usize> = (0..numbers.len()).collect();
+    put_greatest_first(&mut items, |&k| numbers[k]);
+    assert_eq!(items, expected);
+}

@@ -93,6 +93,9 @@ pub struct SolidReport {
     pub surfaces: usize,
     /// The Euler characteristic of the boundary.
     pub euler: i64,
+    /// For each surface the names of the file's groups that all of it is in, as [`TagSet::names`](crate::mesh::TagSet::names) has them;
+    /// empty if the file has no groups.
+    pub surface_groups: Vec<Vec<String>>,
 }
 
 impl SolidReport {

@@ -5,6 +5,7 @@ use super::entities::{Curve, CurveId, Surface, SurfaceId};
 use super::shell::Shell;
 use crate::geometry::{Aabb, Point, area_vector};
 use crate::mesh::topology::Sets;
+use crate::mesh::{FaceId, TagSet, Tags};
 
 /// The surface of each triangle; surfaces are numbered in the order of their least triangles.
 pub(super) fn flood(shell: &Shell, is_feature: &[bool]) -> Vec<SurfaceId> {
@@ -56,4 +57,27 @@ pub(super) fn surfaces(shell: &Shell, of: &[SurfaceId], body_of: &[u32], curves:
         }
     };
     triangles.into_iter().zip(bounding).map(surface).collect()
+}
+
+/// For each surface the names that the file has for all of it, from the file's face of each triangle; nothing if the file
+/// has no names.
+pub(super) fn surface_groups(surfaces: &[Surface], tags: &Tags, face_of: &[FaceId]) -> Vec<Vec<String>> {
+    if tags.of_element.is_empty() {
+        return Vec::new();
+    }
+    let names: Vec<Vec<String>> = tags.sets.iter().map(TagSet::names).collect();
+    let groups = |surface: &Surface| {
+        let set_of = |t: u32| tags.of_element[face_of[t as usize].index()] as usize;
+        let mut last = set_of(surface.triangles[0]);
+        let mut common = names[last].clone();
+        for &t in &surface.triangles {
+            let set = set_of(t);
+            if set != last {
+                common.retain(|name| names[set].contains(name));
+                last = set;
+            }
+        }
+        common
+    };
+    surfaces.iter().map(groups).collect()
 }

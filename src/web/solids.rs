@@ -1,6 +1,7 @@
 //! All-hex meshes of solids.
 
 use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
+use serde::Deserialize;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use super::convert::{check_ids, points, to_object};
@@ -116,6 +117,14 @@ pub fn plan(surface: &Surface, options: JsValue) -> Result<JsValue, Failure> {
     to_object(&plan)
 }
 
+/// What file of a solid's mesh is wanted, and the names that it has for each surface besides.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct File {
+    format: String,
+    surface_groups: Vec<Vec<String>>,
+}
+
 /// The mesh of a solid, given back as arrays, as the bytes of a file.
 ///
 /// # Errors
@@ -128,13 +137,14 @@ pub fn export(
     bodies: Vec<u32>,
     middle_nodes: Vec<f64>,
     second_order: Vec<u32>,
-    format: &str,
+    file: JsValue,
 ) -> Result<Uint8Array, Failure> {
-    let format = format_named(format)?;
+    let File { format, surface_groups: names } = serde_wasm_bindgen::from_value(file)?;
+    let format = format_named(&format)?;
     let mut mesh = hex_mesh(nodes, hexes)?;
     mesh.groups = face_groups(sides, mesh.hexes.len(), |sides| {
         let sides: Vec<_> = sides.into_iter().map(|(side, surface)| (side, SurfaceId(surface))).collect();
-        surface_groups(&sides)
+        surface_groups(&sides, &names)
     })?;
     if !bodies.is_empty() {
         if bodies.len() != mesh.hexes.len() {

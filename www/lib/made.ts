@@ -177,7 +177,7 @@ export class HexedSolid extends MadeHexes {
   /**
    * All boundary faces, two numbers for each: 6 times its hex and its number there (see `groupedFaces` of
    * {@link RefinedHexes}), and the surface of the solid that it stands for, by its place in `surfaces` of the plan. Files
-   * have them as groups: `surface-1` for the first.
+   * have them as groups: `surface-1` for the first, and where the input has groups that all of a surface is in, those too (`report.solid.surfaceGroups`).
    */
   readonly groupedFaces: Uint32Array;
   /** The body of each hex, where the solid has several; else empty. Files have them as groups: `body-1` for the first. */
@@ -223,6 +223,7 @@ export class HexedSolid extends MadeHexes {
     const { nodes, hexes, groupedFaces, bodies, secondOrder } = this;
     const { nodes: middleNodes, hexes: all } = secondOrder ?? { nodes: new Float64Array(), hexes: new Uint32Array() };
     const mesh: SolidArrays = { nodes, hexes, groupedFaces, bodies, middleNodes, secondOrder: all };
-    return this.origin.engine.run((desk) => desk.call('exportSolid', { mesh, format }), options);
+    const file = { format, surfaceGroups: this.report.solid.surfaceGroups };
+    return this.origin.engine.run((desk) => desk.call('exportSolid', { mesh, file }), options);
   }
 }

@@ -134,8 +134,8 @@ export class Meshing {
       transfer: [],
     }),
     meshSolid: ({ input, options }) => solidData(this.#bindings.meshSolid(this.#solid(input), options)),
-    exportSolid: ({ mesh, format }) => {
-      const result = this.#bindings.exportSolid(mesh.nodes, mesh.hexes, mesh.groupedFaces, mesh.bodies, mesh.middleNodes, mesh.secondOrder, format);
+    exportSolid: ({ mesh, file }) => {
+      const result = this.#bindings.exportSolid(mesh.nodes, mesh.hexes, mesh.groupedFaces, mesh.bodies, mesh.middleNodes, mesh.secondOrder, file);
       return { result, transfer: [result.buffer] };
     },
     solidDistances: ({ input, mesh }) => {

@@ -93,6 +93,12 @@ export interface SolidArrays extends GroupedHexArrays {
   secondOrder: Uint32Array;
 }
 
+/** What file of a solid's mesh is wanted, and the names that it has for each surface besides. */
+export interface SolidFile {
+  format: HexFormat;
+  surfaceGroups: string[][];
+}
+
 /** A mesh of a solid. */
 export interface HexedSolidData extends SolidArrays, MadeHexData {
   nodes: Float64Array;
@@ -131,7 +137,7 @@ export interface Calls {
   hexQuality: { takes: { mesh: HexArrays; metric: HexMetric }; gives: Float32Array };
   planSolid: { takes: { input: number; options: PlanSolidOptions }; gives: SolidPlan };
   meshSolid: { takes: { input: number; options: SolidOptions }; gives: HexedSolidData };
-  exportSolid: { takes: { mesh: SolidArrays; format: HexFormat }; gives: Uint8Array };
+  exportSolid: { takes: { mesh: SolidArrays; file: SolidFile }; gives: Uint8Array };
   solidDistances: { takes: { input: number; mesh: HexArrays }; gives: Float32Array };
 }
 

@@ -79,6 +79,11 @@ export interface FoundSolid {
   surfaces: number;
   /** Euler characteristic of the boundary. */
   euler: number;
+  /**
+   * For each surface the names of the input's groups that all of it is in, with its object behind `object:` and its material behind
+   * `material:`; empty if the input has no groups.
+   */
+  surfaceGroups: string[][];
 }
 
 /** What was done to fill a solid with hexes, and what came of it. */

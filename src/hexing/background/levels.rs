@@ -12,6 +12,7 @@
 
 use crate::geometry::Point;
 use crate::hexing::extent::{Extent, ONE_LEVEL};
+use crate::parallel::put_greatest_first;
 use crate::solid::{Curve, SolidModel, Surface, SurfaceClass};
 
 /// Levels of holes and pins closer than this to others, in edge lengths, are left out; all others closer than [`ONE_LEVEL`].
@@ -57,7 +58,7 @@ pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> 
         }
     }
     for list in [&mut planes, &mut curves, &mut round] {
-        list.sort_by(|a, b| b.0.total_cmp(&a.0));
+        put_greatest_first(list, |&(size, _)| size);
     }
     planes.iter().chain(&curves).for_each(|(_, extent)| levels.add(extent.middle(), ONE_LEVEL));
     for (_, extent) in round {

@@ -6,7 +6,7 @@
 //! 3. Planes, and the axes of extruded surfaces, are clustered from the largest down; the two ends of a direction are one.
 
 use crate::geometry::{Point, area_vector};
-use crate::parallel::greatest_first;
+use crate::parallel::{greatest_first, put_greatest_first};
 use crate::solid::{SolidModel, Surface, SurfaceClass};
 
 /// The cosine of 0.1 degrees: normals that differ by less are of one plane.
@@ -32,8 +32,8 @@ pub(super) struct Weighted {
 }
 
 /// Puts those of the largest area first.
-fn largest_first(all: &mut [Weighted]) {
-    all.sort_by(|a, b| b.area.total_cmp(&a.area));
+fn largest_first(all: &mut Vec<Weighted>) {
+    put_greatest_first(all, |weighted| weighted.area);
 }
 
 /// Are two unit directions one, up to the sign?

@@ -50,7 +50,7 @@ pub fn principal_directions(
     let volume = solid.volume();
     let mut scores =
         parallel::try_collect(candidates.len(), monitor, |c| score(solid, volume, candidates[c]))?;
-    scores.sort_by(|a, b| b.score.total_cmp(&a.score));
+    parallel::put_greatest_first(&mut scores, |score| score.score);
     Ok(scores)
 }
 

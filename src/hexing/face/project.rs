@@ -18,6 +18,7 @@ use crate::geometry::Point;
 use crate::hexing::direction::PERPENDICULAR;
 use crate::hexing::extent::{Extent, ONE_LEVEL};
 use crate::hexing::steps::step_height;
+use crate::parallel::put_greatest_first;
 use crate::solid::{Curve, SolidModel, Surface};
 
 /// A curve that is shorter than this seen along the direction is a point: 0.15 h.
@@ -71,8 +72,8 @@ pub(super) fn project(solid: &SolidModel, projection: &Projection, shadow: &Shad
     projected.rims.extend(chains);
     for curves in [&mut projected.rims, &mut projected.features] {
         curves.retain(|curve| curve.len() > 1);
-        // Stable, so that curves of one length stay in the order of the solid.
-        curves.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        // Curves of one length stay in the order of the solid.
+        put_greatest_first(curves, |curve| length(curve));
     }
     let (outlines, others) =
         std::mem::take(&mut projected.rims).into_iter().partition::<Vec<_>, _>(|c| is_outline(c, shadow));

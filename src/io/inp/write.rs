@@ -7,7 +7,7 @@ use crate::io::cell_view::CellView;
 use crate::io::tag_numbers;
 use crate::io::text::Text;
 use crate::io::{Document, Format, WriteError};
-use crate::mesh::{TagSet, Tags};
+use crate::mesh::{self, TagSet, Tags};
 
 /// Characters of a number that Abaqus and CalculiX read.
 const NUMBER_WIDTH: usize = 20;
@@ -126,8 +126,8 @@ fn labels(set: &TagSet) -> Vec<String> {
         tag_numbers::labels(set).into_iter().partition(|l| l.name.is_empty());
     let names = |name: &str| {
         let prefixed = |ours: &str, prefix: &str| Some(format!("{ours}{}", name.strip_prefix(prefix)?));
-        let object = prefixed(OBJECT, tag_numbers::OBJECT);
-        object.or_else(|| prefixed(MATERIAL, tag_numbers::MATERIAL)).unwrap_or_else(|| name.to_owned())
+        let object = prefixed(OBJECT, mesh::OBJECT);
+        object.or_else(|| prefixed(MATERIAL, mesh::MATERIAL)).unwrap_or_else(|| name.to_owned())
     };
     nameless
         .iter()

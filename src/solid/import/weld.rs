@@ -4,6 +4,7 @@ use super::Soup;
 use crate::geometry::{Aabb, Point};
 use crate::mesh::first_of_same;
 use crate::mesh::topology::Sets;
+use crate::parallel::greatest_first;
 use crate::solid::options::SolidReport;
 use crate::solid::shell::NONE;
 use crate::{Cancelled, Monitor};
@@ -42,9 +43,9 @@ fn weld_exactly(soup: &mut Soup) -> usize {
 fn weld_close(soup: &mut Soup, tolerance: f64) -> usize {
     let points = &soup.mesh.points;
     let origin = Aabb::around(points).min;
-    let mut order: Vec<(f64, u32)> =
-        points.iter().zip(0..).map(|(p, v)| ((*p - origin).dot(ASKEW), v)).collect();
-    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let along = |p: Point| (p - origin).dot(ASKEW);
+    let order = greatest_first(points.iter().map(|&p| -along(p)));
+    let order: Vec<(f64, u32)> = order.map(|v| (along(points[v]), v as u32)).collect();
     let mut sets = Sets::new(points.len());
     let mut welded = 0;
     for (i, &(along, v)) in order.iter().enumerate() {

@@ -19,6 +19,41 @@ fn borders_of_groups_are_features() {
     assert_eq!(made(&surface, &options).1.curves, 12);
 }
 
+/// Of a surface that several of the file's sets share, what these have in common.
+#[test]
+fn surfaces_have_the_names_that_the_file_has_for_all_of_them() {
+    let mut surface = cuboid([2, 1, 1]);
+    assert_eq!(made(&surface, &SolidOptions::default()).1.surface_groups, Vec::<Vec<String>>::new());
+    let set = |name: &str| TagSet {
+        object: Some("part".into()),
+        groups: vec![name.into(), "wall".into()],
+        material: Some("steel".into()),
+        number: None,
+    };
+    let x_of = |face: &[NodeId]| face.iter().map(|n| surface.positions[n.index()].x).sum::<f64>() / 4.0;
+    let of_element = surface.faces().map(|face| u32::from(x_of(face) > 1.0)).collect();
+    surface.tags = Tags { sets: vec![set("low"), set("high")], of_element };
+    let named = |tags: bool| {
+        let (solid, report) = made(&surface, &SolidOptions { tags, ..SolidOptions::default() });
+        let middles = solid.surfaces().iter().map(|s| s.bounds.center().x);
+        middles.zip(report.surface_groups).collect::<Vec<(f64, Vec<String>)>>()
+    };
+    let apart = named(true);
+    assert_eq!(apart.len(), 10);
+    for (x, names) in apart {
+        let own = if x < 1.0 { "low" } else { "high" };
+        assert_eq!(names, [own, "wall", "object:part", "material:steel"]);
+    }
+    let whole = named(false);
+    assert_eq!(whole.len(), 6);
+    for (x, names) in whole {
+        let own = [(0.0, "low"), (2.0, "high")].into_iter().find(|(end, _)| *end == x);
+        let expected: Vec<&str> =
+            own.map(|(_, name)| name).into_iter().chain(["wall", "object:part", "material:steel"]).collect();
+        assert_eq!(names, expected);
+    }
+}
+
 #[test]
 fn polylines_are_features_and_no_noise() {
     let mut surface = cuboid([4, 4, 4]);

@@ -28,6 +28,30 @@ fn a_cube_is_filled_with_cubes_and_keeps_its_surfaces_as_groups() {
     assert_eq!(json(&folder, "c.json")["mesh"]["groupedFaces"], 96);
 }
 
+/// Loads and supports go by the names that the part had.
+#[test]
+fn surfaces_keep_the_names_that_the_input_has_for_them() {
+    let named = CUBE.replace("f 5 6 7 8\n", "g inlet upper\nusemtl steel\nf 5 6 7 8\ng rest\n");
+    let folder = folder_holding("cube.obj", &named);
+    succeed(&folder, &["hex", "cube.obj", "-o", "cube.msh", "-e", "0.5", "--report", "r.json"]);
+    let [bottom, side] = [vec![], vec!["rest", "material:steel"]];
+    let top = vec!["inlet", "upper", "material:steel"];
+    let of_surfaces = [&bottom, &top, &side, &side, &side, &side];
+    assert_eq!(json(&folder, "r.json")["hexing"]["solid"]["surfaceGroups"], json!(of_surfaces));
+    succeed(&folder, &["check", "cube.msh", "--report", "c.json"]);
+    let mesh = std::fs::read_to_string(folder.path().join("cube.msh")).unwrap();
+    for name in ["surface-1", "surface-6", "inlet", "upper", "rest", "material:steel"] {
+        assert_eq!(mesh.matches(&format!("\"{name}\"")).count(), 1, "{name}");
+    }
+    // An element of the second kind is a quad; the number of its physical group follows those of its tags.
+    let number = |name: &str| {
+        let line = mesh.lines().find(|line| line.ends_with(&format!("\"{name}\""))).unwrap();
+        line.split(' ').nth(1).unwrap().to_owned()
+    };
+    assert_eq!(number("surface-2"), "2");
+    assert!(!["1", "2", "3", "4", "5", "6"].contains(&&*number("inlet")));
+}
+
 #[test]
 fn the_record_has_the_options_as_they_were_given() {
     let folder = folder_holding("cube.obj", CUBE);
