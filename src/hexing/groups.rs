@@ -19,14 +19,25 @@ pub(super) fn sides_of(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Ve
 }
 
 /// A group for each surface that has one of these boundary faces, named `surface-1` for the first, and groups for the names
-/// that the surfaces have besides: none if there are none for it. The faces are 6 times the hex and the number there. `None` if they do not ascend.
+/// that each surface has in the input; `names` may be empty. The faces are 6 times the hex and the number there. `None` if
+/// they do not ascend.
 pub fn surface_groups(sides: &[(u32, SurfaceId)], names: &[Vec<String>]) -> Option<FaceGroups> {
-    let mut tags = tags("surface", sides.iter().map(|(_, surface)| surface.0));
+    let mut tags = tags(SURFACE, sides.iter().map(|(_, surface)| surface.0));
     for set in &mut tags.sets {
-        let surface = set.number.map_or(0, |number| number as usize - 1);
-        set.groups.extend(names.get(surface).into_iter().flatten().map(|name| Group::from(&**name)));
+        let of_input = set.number.and_then(|number| names.get(number as usize - 1));
+        set.groups.extend(of_input.into_iter().flatten().map(|name| named_in_input(name)));
     }
     FaceGroups::new(sides.iter().map(|&(side, _)| side).collect(), tags)
+}
+
+const SURFACE: &str = "surface";
+
+/// A group of the input. A name that is one of ours, as in a surface that was taken from a mesh of ours, would be another
+/// group's: it stands behind `input:`.
+fn named_in_input(name: &str) -> Group {
+    let number = name.strip_prefix(SURFACE).and_then(|rest| rest.strip_prefix('-'));
+    let is_ours = number.is_some_and(|number| number.parse::<u64>().is_ok());
+    if is_ours { format!("input:{name}").into() } else { name.into() }
 }
 
 /// A group of hexes for each body that has some, named `body-1` for the first, from the body of each hex.
@@ -48,4 +59,22 @@ fn tags(what: &str, of_element: impl Iterator<Item = u32>) -> Tags {
     });
     let of_element = of_element.collect();
     Tags { sets, of_element }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_of_the_input_are_never_those_of_other_surfaces() {
+        let names = [vec!["surface-2", "inlet"], vec![], vec!["surface-", "surface-b", "object:surface-1"]];
+        let names = names.map(|names| names.into_iter().map(str::to_owned).collect());
+        let sides = [(0, SurfaceId(2)), (3, SurfaceId(0)), (7, SurfaceId(5))];
+        let groups = surface_groups(&sides, &names).unwrap();
+        let of_side = |k: usize| groups.tags().of(k).unwrap().names();
+        assert_eq!(of_side(0), ["surface-3", "surface-", "surface-b", "object:surface-1"]);
+        assert_eq!(of_side(1), ["surface-1", "input:surface-2", "inlet"]);
+        assert_eq!(of_side(2), ["surface-6"]);
+        assert_eq!(surface_groups(&sides, &[]).unwrap().tags().of(1).unwrap().names(), ["surface-1"]);
+    }
 }
