@@ -17,7 +17,7 @@ use std::time::Instant;
 use acceptance::{Judged, MOST_GROWTH, World, judged, named, octants, random_on_beam, random_set, warped};
 use hexmill::io::{Document, Format, write};
 use hexmill::refine::hex::{Method, refine_hexes};
-use listening::{Listening, Silence};
+use listening::Listening;
 use rayon::prelude::*;
 
 const METHODS: [Method; 2] = [Method::One, Method::Two];
@@ -138,11 +138,8 @@ fn silence() {
             let options = shell::shell(n, level, method);
             let hexes =
                 refine_hexes(&input, &options, &listening).expect("a shell in cubes").mesh.hexes.len();
-            let [Silence { wall, worked, after }, _] = listening.longest();
-            let [wall, worked] = [wall, worked].map(|seconds| 1e3 * seconds);
-            println!(
-                "{name}, {method:?}: {hexes} hexes, at most {wall:.0} ms of silence, {worked:.0} ms of work, after {after}"
-            );
+            let [asked, _] = listening.longest();
+            println!("{name}, {method:?}: {hexes} hexes, {asked}");
         }
     }
 }

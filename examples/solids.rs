@@ -23,7 +23,7 @@ use hexmill::hexing::{AttemptReport, Background, BodyReport, HexingOptions, Resu
 use hexmill::io::{Format, read};
 use hexmill::mesh::quality::aspect;
 use hexmill::mesh::{PolygonMesh, check_hexes};
-use listening::{Listening, Silence};
+use listening::Listening;
 
 /// The command line's allocator. `wasm-pack test` builds every example for the web, where there is none.
 #[cfg(not(target_arch = "wasm32"))]
@@ -34,8 +34,9 @@ type Failure = Box<dyn Error + Send + Sync>;
 
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
-    let source =
-        arguments.next().ok_or("wanted: FOLDER [CELLS] [NAME...], or parts [COUNT] [CELLS] [FIRST]")?;
+    let source = arguments
+        .next()
+        .ok_or("wanted: [silence] FOLDER [CELLS] [NAME...], or parts [COUNT] [CELLS] [FIRST]")?;
     let rest: Vec<String> = arguments.collect();
     if source == "silence" {
         return silence(&rest);
@@ -68,10 +69,8 @@ fn silence(arguments: &[String]) -> Result<(), Failure> {
         let options = options(&surface, cells);
         let hexed = pool.install(|| hex_solid(&surface, &options, &listening))?;
         println!("{}: {} hexes", name_of(&file), hexed.mesh.hexes.len());
-        for (what, Silence { wall, worked, after }) in ["asked", "told"].into_iter().zip(listening.longest())
-        {
-            let [wall, worked] = [wall, worked].map(|seconds| 1e3 * seconds);
-            println!("  {what}: at most {wall:.0} ms of silence, {worked:.0} ms of work, after {after}");
+        for (what, silence) in ["asked", "told"].into_iter().zip(listening.longest()) {
+            println!("  {what}: {silence}");
         }
     }
     Ok(())

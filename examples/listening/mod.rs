@@ -9,18 +9,26 @@ use hexmill::{Monitor, Stage};
 #[derive(Clone, Copy)]
 pub struct Silence {
     /// By the clock, in seconds.
-    pub wall: f64,
-    /// What this process had of the processors meanwhile, in seconds: what is left of `wall` where the machine does nothing else.
-    pub worked: f64,
+    wall: f64,
+    /// What this process had of the processors meanwhile, in seconds: what is left of `wall` where the machine does nothing
+    /// else.
+    worked: f64,
     /// The stage that was told last.
-    pub after: &'static str,
+    after: &'static str,
+}
+
+impl std::fmt::Display for Silence {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [wall, worked] = [self.wall, self.worked].map(|seconds| 1e3 * seconds);
+        write!(f, "at most {wall:.0} ms of silence, {worked:.0} ms of work, after {}", self.after)
+    }
 }
 
 impl Silence {
     const NONE: Self = Self { wall: 0.0, worked: 0.0, after: "nothing" };
 
     /// What the work itself took of it.
-    pub fn own(&self) -> f64 {
+    fn own(&self) -> f64 {
         self.worked.min(self.wall)
     }
 }

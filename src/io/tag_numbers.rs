@@ -70,12 +70,9 @@ impl std::fmt::Display for Label<'_> {
 
 /// The labels of a set. Its number is that of its one name or of one of its groups; else of a label without a name.
 pub(super) fn labels(set: &TagSet) -> Vec<Label<'_>> {
-    let prefixed =
-        |prefix: &str, name: &String| Label { name: format!("{prefix}{name}").into(), number: None };
     let mut labels: Vec<Label<'_>> = Vec::new();
     labels.extend(set.groups.iter().map(|group| Label { name: (&*group.name).into(), number: group.number }));
-    labels.extend(set.object.iter().map(|name| prefixed(OBJECT, name)));
-    labels.extend(set.material.iter().map(|name| prefixed(MATERIAL, name)));
+    labels.extend(set.prefixed().map(|name| Label { name: name.into(), number: None }));
     let own = set.number.filter(|&number| number != 0 && labels.iter().all(|l| l.number != Some(number)));
     match labels.as_mut_slice() {
         [Label { name, number: number @ None }] if !name.is_empty() => *number = own,

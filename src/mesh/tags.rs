@@ -60,14 +60,18 @@ impl TagSet {
     /// Its groups in words, its object behind `object:`, its material behind `material:`; the number of a set that has none of
     /// these.
     pub fn names(&self) -> Vec<String> {
-        let mut names: Vec<String> = self.groups.iter().map(Group::to_string).collect();
-        for (prefix, name) in [(OBJECT, &self.object), (MATERIAL, &self.material)] {
-            names.extend(name.iter().map(|name| [prefix, name].concat()));
-        }
+        let mut names: Vec<String> =
+            self.groups.iter().map(Group::to_string).chain(self.prefixed()).collect();
         if let (true, Some(number @ (..=-1 | 1..))) = (names.is_empty(), self.number) {
             names.push(number.to_string());
         }
         names
+    }
+
+    /// Its object and its material, each behind what says so.
+    pub(crate) fn prefixed(&self) -> impl Iterator<Item = String> {
+        let names = [(OBJECT, &self.object), (MATERIAL, &self.material)];
+        names.into_iter().filter_map(|(prefix, name)| Some([prefix, name.as_ref()?].concat()))
     }
 }
 

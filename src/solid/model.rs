@@ -9,7 +9,7 @@ use super::import::{Imported, import};
 use super::options::{SolidOptions, SolidReport};
 use super::search::{CurveFoot, CurveSearch, Foot, Sides, TriangleSearch};
 use super::shell::Shell;
-use super::surfaces::{flood, surface_groups, surfaces};
+use super::surfaces::{flood, groups_of_file, surfaces};
 use crate::geometry::{Aabb, Point, area_vector};
 use crate::mesh::{FaceId, PolygonMesh};
 use crate::{Cancelled, Monitor, Stage, parallel};
@@ -84,7 +84,7 @@ impl SolidModel {
         let solid = Self::of_parts(parts, monitor)?;
         monitor.checkpoint(Self::STAGE, 1.0)?;
         solid.count(&mut report);
-        report.surface_groups = surface_groups(&solid.surfaces, &surface.tags, &face_of);
+        report.surface_groups = groups_of_file(&solid.surfaces, &surface.tags, &face_of);
         Ok((solid, report))
     }
 

@@ -61,7 +61,7 @@ pub(super) fn surfaces(shell: &Shell, of: &[SurfaceId], body_of: &[u32], curves:
 
 /// For each surface the names that the file has for all of it, from the file's face of each triangle; nothing if the file
 /// has no names.
-pub(super) fn surface_groups(surfaces: &[Surface], tags: &Tags, face_of: &[FaceId]) -> Vec<Vec<String>> {
+pub(super) fn groups_of_file(surfaces: &[Surface], tags: &Tags, face_of: &[FaceId]) -> Vec<Vec<String>> {
     if tags.of_element.is_empty() {
         return Vec::new();
     }
