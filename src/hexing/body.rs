@@ -12,7 +12,8 @@
 //!    octree, and 2 for that. What shows less than half before it is fitted is not fitted before that.
 //!
 //! A mesh that misses nothing but is too far from the solid is first brought nearer with cells that are fair instead of good
-//! (`attempt`), unless nobody asked for the distance and many of its cells are poor.
+//! (`attempt`), unless nobody asked for the distance and many of its cells are poor. Where it is so far that this hardly ever
+//! suffices, smaller cells are tried before that, and it is brought nearer if it is kept.
 //!
 //! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and
 //! how many times as large as the first another may be is bounded.

@@ -56,7 +56,7 @@ pub(crate) fn sweep(
     awake: &mut [bool],
     monitor: &dyn Monitor,
 ) -> Result<Moved, Cancelled> {
-    let mut moved = Moved::default();
+    let mut moved = Moved::of(awake.iter().filter(|&&awake| awake).count());
     for (colour, places) in parts(problem, awake) {
         let part = problem.colours[colour][places].iter().copied();
         let nodes: Vec<u32> = part.filter(|&n| awake[n as usize]).collect();
@@ -112,6 +112,11 @@ pub(crate) struct Moved {
 }
 
 impl Moved {
+    /// Nothing yet, with room for so many nodes.
+    fn of(count: usize) -> Self {
+        Self { nodes: Vec::with_capacity(count), from: Vec::with_capacity(count), far: 0 }
+    }
+
     /// Takes a node to another place; it was not moved before.
     pub(crate) fn take(&mut self, problem: &mut Problem, node: u32, to: Point) {
         self.nodes.push(node);

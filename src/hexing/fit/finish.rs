@@ -82,7 +82,7 @@ mod tests {
         let mut on = correspond(&mesh, &solid, &Silent).unwrap();
         let mut sheets = insert_sheets(&mut mesh, &mut on, &solid, &Silent).unwrap();
         let options = FitOptions::default();
-        let mut fitted = fit(&mut mesh, &mut on, &mut sheets, &solid, &options, &Silent).unwrap();
+        let (mut fitted, _) = fit(&mut mesh, &mut on, &mut sheets, &solid, &options, &Silent).unwrap();
         let node = |p: Point| mesh.positions.iter().position(|&q| q.distance(p) < 1e-9).unwrap();
         let (inside, aside) = (node(Point::splat(2.0)), node(Point::new(2.0, 2.0, 4.0)));
         mesh.positions[inside] += Point::new(0.3, 0.2, 0.1);

@@ -67,7 +67,7 @@ use pull::{Course, pull};
 use rings::widen;
 use soften::soften;
 use spread::chains;
-use survey::Survey;
+pub(super) use survey::Survey;
 #[cfg(test)]
 pub(super) use target::Foot;
 pub(super) use target::{OnSolid, Target};
@@ -160,6 +160,8 @@ pub struct FitReport {
     pub mean: f64,
     /// Hexes that are not certainly positive, ascending: none, if all were positive before sheets were inserted.
     pub inverted: Vec<HexId>,
+    /// How far mesh and solid are from each other at the samples of a survey, in model units; infinite if there was none.
+    pub apart: f64,
 }
 
 /// What came of a fit, and what holds the nodes.
@@ -172,33 +174,36 @@ pub struct Fitted {
     far: Vec<bool>,
 }
 
-/// Moves the nodes of `mesh` to the solid as `on` tells: all but the last step. Sheets that cannot be fitted are taken back, in all of `mesh`,
+/// Moves the nodes of `mesh` to the solid as `on` tells: all but the last step. What came of it, and what was seen of mesh and
+/// solid, unless hexes are inverted. Sheets that cannot be fitted are taken back, in all of `mesh`,
 /// `on` and `sheets`; soft curves that leave no room for good cells are given up in `on`.
 ///
 /// # Errors
 /// [`Cancelled`] when the monitor says so; nodes that have moved by then stay where they are.
-pub fn fit(
+pub fn fit<'a>(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
     sheets: &mut SheetReport,
-    solid: &SolidModel,
+    solid: &'a SolidModel,
     options: &FitOptions,
     monitor: &dyn Monitor,
-) -> Result<Fitted, Cancelled> {
+) -> Result<(Fitted, Option<Survey<'a>>), Cancelled> {
     let reduction = on.reduction.clone();
     let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
     let (mut report, mut holds) =
         fitted(mesh, on, sheets, &OnSolid::new(solid, &reduction), options, &part(0.0, SOFTEN))?;
-    let mut far = Vec::new();
+    let (mut far, mut survey) = (Vec::new(), None);
     if report.inverted.is_empty() {
         let softened = soften(mesh, on, &mut holds, solid, options.max_distance, &part(SOFTEN, EVEN))?;
-        let came = even_and_near(mesh, on, &holds, solid, options.max_distance, &part(EVEN, APPROACH))?;
+        let part = part(EVEN, APPROACH);
+        let seen = survey.insert(Survey::new(mesh, &on.faces, solid, &part)?);
+        let came = even_and_near(mesh, on, &holds, seen, options.max_distance, &part)?;
         report.sweeps += softened + came.sweeps;
-        far = came.far;
+        (far, report.apart) = (came.far, came.apart);
         (report.worst, report.mean) = quality(mesh);
         report.off = off(mesh, on, &holds, &OnSolid::new(solid, &on.reduction));
     }
-    Ok(Fitted { report, holds, far })
+    Ok((Fitted { report, holds, far }, survey))
 }
 
 #[cfg(test)]
@@ -256,6 +261,7 @@ fn fitted(
             .into_iter()
             .map(HexId)
             .collect(),
+        apart: f64::INFINITY,
     };
     Ok((report, holds))
 }
@@ -266,11 +272,10 @@ fn even_and_near(
     mesh: &mut HexMesh,
     on: &Correspondence,
     holds: &[Hold],
-    solid: &SolidModel,
+    survey: &mut Survey,
     max_distance: f64,
     monitor: &dyn Monitor,
 ) -> Result<Nearness, Cancelled> {
-    let mut survey = Survey::new(mesh, &on.faces, solid, monitor)?;
     let far = vec![true; mesh.positions.len()];
     let mut all = Nearness { sweeps: 0, at_first: f64::INFINITY, apart: f64::INFINITY, far };
     for (k, evening) in Evening::ALL.into_iter().enumerate() {
@@ -278,7 +283,7 @@ fn even_and_near(
         let part = Part { whole: monitor, stage: FITTING, range };
         let terms = Terms { leave: 0.5 * max_distance, evening, enough: 0.0, fair: GOOD };
         let before = mesh.positions.clone();
-        let mut came = course(mesh, on, holds, (&mut survey, &all.far), terms, &part)?;
+        let mut came = course(mesh, on, holds, (&mut *survey, &all.far), terms, &part)?;
         came.sweeps += all.sweeps;
         if came.apart < NEARER * all.apart {
             all = came;
@@ -287,7 +292,7 @@ fn even_and_near(
             mesh.positions = before;
             all.sweeps = came.sweeps;
         }
-        if !all.calls_for_more(survey.edge, solid.diagonal()) {
+        if !all.calls_for_more(survey.edge, survey.solid.diagonal()) {
             break;
         }
     }

@@ -23,7 +23,7 @@ use crate::{Cancelled, Monitor, parallel};
 
 /// What is farther apart than this share of the farthest, and than so many edges (those there, or the mean of all if that
 /// is longer), is brought nearer.
-const SHARE: f64 = 0.7;
+const SHARE: f64 = 0.8;
 const LEAST: f64 = 0.085;
 
 /// How often each node is tried, before what is inside follows, and how often that is done.

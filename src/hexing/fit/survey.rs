@@ -1,11 +1,11 @@
 //! How far the boundary of a mesh and a solid are from each other, quad by quad.
 //!
-//! Both are sampled: the quads at their nodes and the middles of their sides and diagonals, the solid as where distances are
-//! told. Each of its samples belongs to the quad that is nearest to it.
+//! Both are sampled: the quads at their nodes, the quarters of their sides and the middles of their diagonals, the solid as where
+//! distances are told. Each of its samples belongs to the quad that is nearest to it.
 
 use std::collections::HashSet;
 
-use crate::geometry::{CutQuad, NearestQuad, Point};
+use crate::geometry::{Aabb, CutQuad, NearestQuad, Point};
 use crate::mesh::topology::Bins;
 use crate::mesh::{HexMesh, NodeId, Sampled, Triangles};
 use crate::solid::{SolidModel, SurfaceId};
@@ -20,19 +20,28 @@ const SAMPLES: usize = 12;
 /// Samples between two questions whether to stop.
 const BATCH: usize = 1 << 12;
 
+/// Samples that follow each other lie near each other: so many are looked at together first.
+const BALL: usize = 64;
+
+/// A ball around some samples is larger than they need by this share, so that no rounding leaves one out.
+const ROUNDING: f64 = 1e-6;
+
 /// All of a boundary, and how far each quad is from the solid.
-pub(super) struct Survey<'a> {
+pub struct Survey<'a> {
     pub(super) solid: &'a SolidModel,
     /// The mean length of the edges of the mesh when it was first looked at.
     pub(super) edge: f64,
     /// The samples of the solid, and which quad is nearest to each; behind it how far that is, squared.
     samples: Vec<Point>,
     nearest: Vec<(u32, f64)>,
-    /// The nodes of the boundary, ascending, and where they are.
+    /// A ball around each `BALL` samples, by its middle and radius.
+    balls: Vec<(Point, f64)>,
+    /// The nodes of the boundary, ascending, where they are, and how far from the solid.
     nodes: Vec<NodeId>,
     places: Vec<Point>,
-    /// Which of them each quad has, and how far these and the middles of its diagonals and sides are from the solid; of a side between
-    /// two quads the one that has it ascending knows.
+    of_nodes: Vec<f64>,
+    /// Which of them each quad has, and how far these, the middles of its diagonals and the quarters of its sides are from the solid;
+    /// of a side between two quads the one that has it ascending knows.
     quads: Vec<[u32; 4]>,
     of_mesh: Vec<f64>,
     /// The samples at each quad, the farthest first.
@@ -62,9 +71,13 @@ impl<'a> Survey<'a> {
         Ok(Self {
             solid,
             edge,
+            balls: parallel::try_collect(samples.len().div_ceil(BALL), monitor, |k| {
+                ball(&samples[k * BALL..samples.len().min((k + 1) * BALL)])
+            })?,
             samples,
             nearest: Vec::new(),
             places: vec![Point::NAN; nodes.len()],
+            of_nodes: Vec::new(),
             nodes,
             quads: faces.iter().map(|(quad, _)| quad.map(of_quad)).collect(),
             of_mesh: Vec::new(),
@@ -75,7 +88,13 @@ impl<'a> Survey<'a> {
 
     /// Looks at all of the boundary, whose quads are those of before. What was seen of those that are where they were holds.
     pub(super) fn renew(&mut self, mesh: &HexMesh, monitor: &dyn Monitor) -> Result<(), Cancelled> {
-        let has_moved = self.follow(mesh);
+        let moved_nodes = self.follow(mesh);
+        let of_nodes = std::mem::take(&mut self.of_nodes);
+        self.of_nodes = parallel::try_collect(self.nodes.len(), monitor, |n| {
+            if moved_nodes[n] { self.solid.nearest(self.places[n]).distance } else { of_nodes[n] }
+        })?;
+        let has_moved: Vec<bool> =
+            self.quads.iter().map(|quad| quad.iter().any(|&n| moved_nodes[n as usize])).collect();
         let of_mesh = std::mem::take(&mut self.of_mesh);
         self.of_mesh = parallel::try_collect(self.quads.len(), monitor, |k| {
             if has_moved[k] { self.apart(k) } else { of_mesh[k] }
@@ -99,7 +118,7 @@ impl<'a> Survey<'a> {
         Ok(())
     }
 
-    /// Takes the nodes to where the mesh has them. Which quads have one that was elsewhere.
+    /// Takes the nodes to where the mesh has them. Which were elsewhere.
     fn follow(&mut self, mesh: &HexMesh) -> Vec<bool> {
         let mut has_moved = vec![false; self.nodes.len()];
         for ((node, place), has_moved) in self.nodes.iter().zip(&mut self.places).zip(&mut has_moved) {
@@ -107,16 +126,18 @@ impl<'a> Survey<'a> {
             *has_moved = *place != now;
             *place = now;
         }
-        self.quads.iter().map(|quad| quad.iter().any(|&n| has_moved[n as usize])).collect()
+        has_moved
     }
 
-    /// How far a quad's corners and the middles of its diagonals and of the sides that it has ascending are from the solid.
+    /// How far a quad's corners, the middles of its diagonals and the quarters of the sides that it has ascending are from the
+    /// solid.
     fn apart(&self, quad: usize) -> f64 {
         let corners = self.quad(quad);
         let is_ours = |&k: &usize| self.quads[quad][k] < self.quads[quad][(k + 1) % 4];
-        let sides = (0..4).filter(is_ours).map(|k| corners[k].midpoint(corners[(k + 1) % 4]));
-        let apart = |p: Point| self.solid.nearest(p).distance;
-        sides.chain(corners).chain(CutQuad(corners).middles()).map(apart).fold(0.0, f64::max)
+        let quarters = |k: usize| [0.25, 0.5, 0.75].map(|at| corners[k].lerp(corners[(k + 1) % 4], at));
+        let between = (0..4).filter(is_ours).flat_map(quarters).chain(CutQuad(corners).middles());
+        let of_nodes = self.quads[quad].map(|n| self.of_nodes[n as usize]);
+        between.map(|p| self.solid.nearest(p).distance).chain(of_nodes).fold(0.0, f64::max)
     }
 
     /// Where the corners of a quad are.
@@ -127,6 +148,16 @@ impl<'a> Survey<'a> {
     /// The samples of the solid that count at a quad.
     pub(super) fn at(&self, quad: usize) -> Vec<Point> {
         self.of_solid.at(quad).iter().take(SAMPLES).map(|&k| self.samples[k as usize]).collect()
+    }
+
+    /// Could some of these quads be nearer to a sample of the ball than what was nearest to it?
+    fn near_balls(&self, quads: &NearestQuad, monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
+        parallel::try_collect(self.balls.len(), monitor, |k| {
+            let known = self.nearest.iter().skip(k * BALL).take(BALL);
+            let (middle, radius) = self.balls[k];
+            let reach = radius + known.map(|&(_, squared)| squared).fold(0.0, f64::max).sqrt();
+            quads.nearest_within(middle, reach * reach * (1.0 + ROUNDING)).is_some()
+        })
     }
 
     /// What is nearest to each sample. Where that has not moved, only what has can be nearer.
@@ -141,6 +172,7 @@ impl<'a> Survey<'a> {
         let patch = |quad: u32| CutQuad(self.quad(quad as usize));
         let of_moved = NearestQuad::within(moved.iter().map(|&quad| patch(quad)), monitor)?;
         let of_all = NearestQuad::within((0..has_moved.len() as u32).map(patch), monitor)?;
+        let is_near = self.near_balls(&of_moved, monitor)?;
         parallel::try_collect(self.samples.len(), monitor, |k| {
             let p = self.samples[k];
             let known = self.nearest.get(k).filter(|(quad, _)| is_known && !has_moved[*quad as usize]);
@@ -148,12 +180,22 @@ impl<'a> Survey<'a> {
                 let found = of_all.nearest(p).expect("a mesh has a boundary");
                 return (found.facet as u32, found.point.distance_squared(p));
             };
+            if !is_near[k / BALL] {
+                return (quad, squared);
+            }
             let nearer = of_moved
                 .nearest_within(p, squared)
                 .map(|found| (moved[found.facet], found.point.distance_squared(p)));
             nearer.filter(|&(other, nearer)| nearer < squared || other < quad).unwrap_or((quad, squared))
         })
     }
+}
+
+/// The middle and the radius of a ball around some points.
+fn ball(points: &[Point]) -> (Point, f64) {
+    let middle = Aabb::around(points).center();
+    let squared = points.iter().map(|p| p.distance_squared(middle)).fold(0.0, f64::max);
+    (middle, squared.sqrt())
 }
 
 /// Samples of a solid for a mesh with edges of this mean length: those by which distances are told, but where they are dense

@@ -191,7 +191,7 @@ fn a_box_across_the_grid_keeps_its_edges() {
     let mut on = correspond(&mesh, &solid, &Silent).unwrap();
     let mut sheets = insert_sheets(&mut mesh, &mut on, &solid, &Silent).unwrap();
     let report =
-        fit(&mut mesh, &mut on, &mut sheets, &solid, &FitOptions::default(), &Silent).unwrap().report;
+        fit(&mut mesh, &mut on, &mut sheets, &solid, &FitOptions::default(), &Silent).unwrap().0.report;
     let reduction = on.reduction.clone();
     let target = OnSolid::new(&solid, &reduction);
     Fitted { mesh, on, sheets, report }.expect(&target, 0.5, 0.85);

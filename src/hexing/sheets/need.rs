@@ -22,6 +22,8 @@ pub(super) struct Look<'a> {
     pub(super) boundary: &'a Boundary,
     pub(super) groups: &'a Groups,
     edges: BoundaryEdges,
+    /// Is a node at an edge on a curve?
+    on_curve: Vec<bool>,
 }
 
 impl<'a> Look<'a> {
@@ -33,7 +35,8 @@ impl<'a> Look<'a> {
     ) -> Self {
         let mut on_curve = vec![false; mesh.positions.len()];
         on.edges.iter().for_each(|(ends, _)| ends.iter().for_each(|n| on_curve[n.index()] = true));
-        Self { edges: boundary.edges(|n| on_curve[n.index()]), mesh, on, boundary, groups }
+        let edges = boundary.edges(|n| on_curve[n.index()]);
+        Self { mesh, on, boundary, groups, edges, on_curve }
     }
 
     /// For each group: does it need a sheet?
@@ -90,11 +93,14 @@ impl<'a> Look<'a> {
 
     /// The edges on curves, in the order of `on.edges`; those that have not two quads are left out.
     pub(super) fn curve_edges(&self) -> Vec<CurveEdge> {
-        let mut on_curve = vec![false; self.mesh.positions.len()];
-        self.on.edges.iter().for_each(|(ends, _)| ends.iter().for_each(|n| on_curve[n.index()] = true));
+        let is_near = |n: &NodeId| self.on_curve[n.index()];
         let found = parallel::gather(self.mesh.hexes.len(), |h, found: &mut Vec<u32>| {
             let hex = &self.mesh.hexes[h];
-            let near = hex.map(|n| on_curve[n.index()]);
+            // Most hexes are away from all curves.
+            if !hex.iter().any(is_near) {
+                return;
+            }
+            let near = hex.each_ref().map(is_near);
             for [a, b] in EDGES.map(|ends| ends.map(usize::from)) {
                 if near[a] && near[b] {
                     let ends = ascending([hex[a], hex[b]]);
