@@ -326,6 +326,18 @@ mod tests {
     }
 
     #[test]
+    fn a_mesh_that_is_far_too_far_waits_unless_a_distance_is_asked_for() {
+        let (solid, _) = house(0.54);
+        let waits = |max_distance: Option<f64>| {
+            let hearing = Hearing::default();
+            let (report, meshed, failures) = made(&solid, 0.24, max_distance, &hearing);
+            assert!(!failures.is_empty() && distance(&report) > 0.06);
+            (meshed.approach.is_some(), hearing.0.into_inner())
+        };
+        assert_eq!([None, Some(0.05)].map(waits), [(true, false), (false, true)]);
+    }
+
+    #[test]
     fn a_mesh_that_is_to_approach_does_so_once_it_is_kept() {
         let (solid, _) = house(0.5);
         let (report, meshed, _) = made(&solid, 0.4, None, &Silent);

@@ -29,7 +29,8 @@ use crate::{Cancelled, Monitor, Stage};
 #[derive(Clone, Debug)]
 pub struct HexedSolid {
     /// The mesh. The surfaces of the solid are groups of its boundary faces: `surface-1` and so on, and where the file has
-    /// groups that all of a surface is in, those too. Where there are several bodies they are groups of hexes, `body-1` and so on, and share no node.
+    /// groups that all of a surface is in, those too. Where there are several bodies they are groups of hexes, `body-1` and
+    /// so on, and share no node.
     pub mesh: HexMesh,
     /// All boundary quads, outward, each with the surface that it stands for.
     pub faces: Vec<([NodeId; 4], SurfaceId)>,

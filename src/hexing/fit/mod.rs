@@ -14,8 +14,8 @@
 //! 7. `near`: where mesh and solid are farthest from each other, boundary nodes try other places. Where they stay far apart
 //!    and nodes found much better places, the last two steps are made again around there, with other courses, and each counts
 //!    that brings them much nearer;
-//! 8. `approach`: where they are so far apart that another attempt would be made, with cells that are fair instead of good,
-//!    and with room that is made among the worst of them ([`Fitted::approach`]);
+//! 8. `approach`: where they are so far apart that another attempt would be made, or was and is no better, with cells that are
+//!    fair instead of good, and with room that is made among the worst of them ([`Fitted::approach`]);
 //! 9. `even` once more, for what is inside and in planes ([`Fitted::finish`]): that takes mesh and solid no farther from
 //!    each other, so that meshes can be held against each other before it, and only the one that is kept needs it.
 //!

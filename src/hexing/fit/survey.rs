@@ -23,7 +23,7 @@ const BATCH: usize = 1 << 12;
 /// Samples that follow each other lie near each other: so many are looked at together first.
 const BALL: usize = 64;
 
-/// A ball around some samples is larger than they need by this share, so that no rounding leaves one out.
+/// What is looked for around a ball of samples is farther, squared, than need be by this share: no rounding leaves one out.
 const ROUNDING: f64 = 1e-6;
 
 /// All of a boundary, and how far each quad is from the solid.
@@ -153,9 +153,9 @@ impl<'a> Survey<'a> {
     /// Could some of these quads be nearer to a sample of the ball than what was nearest to it?
     fn near_balls(&self, quads: &NearestQuad, monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
         parallel::try_collect(self.balls.len(), monitor, |k| {
-            let known = self.nearest.iter().skip(k * BALL).take(BALL);
             let (middle, radius) = self.balls[k];
-            let reach = radius + known.map(|&(_, squared)| squared).fold(0.0, f64::max).sqrt();
+            let known = self.nearest.chunks(BALL).nth(k).unwrap_or_default();
+            let reach = radius + known.iter().map(|&(_, squared)| squared).fold(0.0, f64::max).sqrt();
             quads.nearest_within(middle, reach * reach * (1.0 + ROUNDING)).is_some()
         })
     }
