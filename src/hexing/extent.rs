@@ -6,6 +6,9 @@ use crate::solid::{SolidModel, Surface};
 /// Heights closer than this, in edge lengths, are one level of a sweep: no layer is between them.
 pub(super) const ONE_LEVEL: f64 = 0.25;
 
+/// By so little, in edge lengths, half an edge is missed where it is only by rounding.
+pub(super) const ROUNDED: f64 = 1e-6;
+
 /// From where to where something reaches along a direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {

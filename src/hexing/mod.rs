@@ -4,6 +4,7 @@
 //! of the solid are found on the core's boundary, sheets are inserted where cells would be bad, and the nodes are
 //! moved to the solid without a cell ever being inverted.
 
+mod across;
 pub mod background;
 pub mod core;
 pub mod correspondence;

@@ -3,14 +3,15 @@
 //! 1. At both ends of the solid;
 //! 2. in planar surfaces across the direction, the largest first;
 //! 3. in planar curves across it, the longest first;
-//! 4. at both ends and in the middle of holes and pins across it that are about as thick as an edge is long, the largest
-//!    first: with four cells around its middle a circle becomes eight edges, else as few as four;
+//! 4. at both ends and in the middle of round holes and pins across it that are a few edges thick at most, the largest
+//!    first;
 //! 5. halfway between a round end of the solid and the nearest planar surface or curve across, where these are about an
 //!    edge apart: the solid turns by a right angle between them.
 //!
 //! What is too close to a level before has none.
 
 use crate::geometry::Point;
+use crate::hexing::across::axis_across;
 use crate::hexing::extent::{Extent, ONE_LEVEL};
 use crate::parallel::put_greatest_first;
 use crate::solid::{Curve, SolidModel, Surface, SurfaceClass};
@@ -28,16 +29,6 @@ const FLAT: f64 = 0.01;
 /// The cosine of 1 degree: normals closer than this to the direction are along it.
 const ALONG: f64 = 0.999_847_7;
 
-/// The cosine of 80 degrees: axes farther than that from the direction are across it.
-const ACROSS: f64 = 0.17;
-
-/// A surface turns around from the one side to the other if its normals come so near to the direction, and to its opposite.
-const AROUND: f64 = 0.9;
-
-/// How thick holes and pins are that are looked at, in edge lengths: of thinner ones no cell is left, thicker ones have cells
-/// enough.
-const THICK: [f64; 2] = [0.8, 2.2];
-
 /// Heights along a unit direction, ascending.
 pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> Vec<f64> {
     let Extent { low, high } = Extent::of(solid.points().iter().copied(), direction);
@@ -47,7 +38,7 @@ pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> 
         let extent = Extent::of_surface(solid, surface, direction);
         if is_across(surface, direction) {
             planes.push((surface.area, extent));
-        } else if turns_around(solid, surface, direction) && is_thick(extent, edge_length) {
+        } else if axis_across(solid, surface, direction, edge_length).is_some() {
             round.push((surface.area, extent));
         }
     }
@@ -91,21 +82,9 @@ impl Levels {
     }
 }
 
-/// Is what reaches so far about as thick as an edge is long?
-fn is_thick(extent: Extent, edge_length: f64) -> bool {
-    (THICK[0] * edge_length..THICK[1] * edge_length).contains(&extent.thickness())
-}
-
 /// Is a surface planar, and across the direction?
 fn is_across(surface: &Surface, direction: Point) -> bool {
     matches!(surface.class, SurfaceClass::Planar { normal } if normal.dot(direction).abs() > ALONG)
-}
-
-/// Is a surface a cylinder across the direction that goes around from its one side to the other?
-fn turns_around(solid: &SolidModel, surface: &Surface, direction: Point) -> bool {
-    let SurfaceClass::Cylindrical { axis } = surface.class else { return false };
-    let faces = |way: Point| surface.triangles.iter().any(|&t| solid.normals()[t as usize].dot(way) > AROUND);
-    axis.dot(direction).abs() < ACROSS && faces(direction) && faces(-direction)
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
@@ -138,7 +117,7 @@ mod tests {
 
     #[test]
     fn thick_and_thin_pins_and_those_along_have_none_in_the_middle() {
-        assert_eq!(levels(&pin(1.2), Point::Z, 1.0).len(), 2);
+        assert_eq!(levels(&pin(1.7), Point::Z, 1.0).len(), 2);
         assert_eq!(levels(&pin(0.3), Point::Z, 1.0).len(), 2);
         assert_eq!(levels(&pin(0.6), Point::X, 1.0).len(), 2);
     }

@@ -3,6 +3,7 @@
 use super::columns::{Columns, share_an_edge};
 use super::levels::{ONE_STEP, levels};
 use crate::geometry::Point;
+use crate::hexing::extent::ROUNDED;
 use crate::hexing::face::{FaceError, PrincipalFace, RegionMesh, RegionOptions, principal_face};
 use crate::mesh::topology::{Bins, Sets};
 use crate::mesh::{HexMesh, NodeId};
@@ -11,9 +12,6 @@ use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// Hexes whose centre is farther outside than this, in edge lengths, are dropped.
 const FAR: f64 = 2.0;
-
-/// By so little half an edge is missed where it is only by rounding.
-const ROUNDED: f64 = 1e-6;
 
 const SWEEP: Stage = Stage("sweep");
 

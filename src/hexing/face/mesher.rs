@@ -7,10 +7,9 @@ use glam::DVec2;
 
 use super::cells::{Bends, Cell, Quads, quality, split};
 use super::field::Field;
-use super::graph::Graph;
 use super::pack::{Ground, pack};
 use super::pair::pair;
-use super::sample::{Samples, sample};
+use super::sample::Samples;
 use super::smooth::{Course, Stars, smooth};
 use super::tidy::Patch;
 use super::triangulation::{Outcome, Triangles, Triangulation};
@@ -146,18 +145,15 @@ const POLISH: [Course; 4] = [
     Course { doublings: 3, mu: 1.0, target: 0.5, rounds: 8 },
 ];
 
-/// Meshes the inside of the outline of `graph`, whose segments cross nowhere; `area` is that of the inside.
-pub(super) fn mesh(graph: &Graph, area: f64, monitor: &dyn Monitor) -> Result<Quads, FaceError> {
-    monitor.checkpoint(SAMPLE, 0.0)?;
-    let samples = sample(graph, &graph.arcs(), monitor)?;
-    monitor.checkpoint(SAMPLE, 1.0)?;
-    let points = place(&samples, area, monitor)?;
-    let (triangles, _) = triangulate(&points, &samples, monitor)?;
-    let bends = Bends::new(&samples);
+/// Meshes the inside of the outline among `samples`; `area` is that of the inside.
+pub(super) fn mesh(samples: &Samples, area: f64, monitor: &dyn Monitor) -> Result<Quads, FaceError> {
+    let points = place(samples, area, monitor)?;
+    let (triangles, _) = triangulate(&points, samples, monitor)?;
+    let bends = Bends::new(samples);
     let cells = pair(triangles, &points, &bends, monitor)?;
-    let mut patch = Patch::new(points, cells, &samples, &bends);
+    let mut patch = Patch::new(points, cells, samples, &bends);
     patch.tidy(monitor)?;
-    let mut quads = split(&patch.points, &patch.cells, &samples);
+    let mut quads = split(&patch.points, &patch.cells, samples);
     finish(&mut quads, monitor)?;
     let quads = quads.compact();
     let is_positive = |cell: &Cell| quads.quality(cell) > 0.0;

@@ -4,11 +4,12 @@ use glam::DVec2;
 
 use super::cover::cover;
 use super::embed::{Embedding, TOLERANCE};
-use super::graph::Graph;
+use super::graph::{Arc, Graph};
 use super::mesher::{FaceError, mesh};
 use super::project::project;
 use super::region::{RegionMesh, RegionOptions, region_mesh};
-use super::relax::relax;
+use super::relax::{part, relax};
+use super::sample::{SampleError, sample};
 use super::scale::Projection;
 use super::shadow::Shadow;
 use crate::geometry::Point;
@@ -35,12 +36,12 @@ pub struct PrincipalFace {
 
 /// Projects a solid along `direction` and meshes what it covers with quads, about as long as `options` say.
 ///
-/// 1. `project`: feature curves, and rims, where the surface turns away from the direction (`shadow` says
-///    which of them bound what is covered);
+/// 1. `project`: feature curves, rims, where the surface turns away from the direction (`shadow` says which of them bound
+///    what is covered), and rectangles around round holes and pins across it that are a few edges thick at most;
 /// 2. `embed`: those are laid one after another, the outline first; what falls together nearly is one curve. A feature curve
 ///    along the direction is a node;
 /// 3. `cover`: which parts between them the solid covers, and so which curves are the outline;
-/// 4. `relax`: curves inside that would spoil the quads are given up;
+/// 4. `relax`: curves inside that would spoil the quads are given up, and those that cannot be told apart;
 /// 5. the stages of [`quad_region`](super::quad_region) from `sample` on.
 ///
 /// # Errors
@@ -55,7 +56,8 @@ pub fn principal_face(
     let projection = Projection::new(solid.points(), direction, options.edge_length)?;
     let shadow = Shadow::new(solid, &projection);
     let projected = project(solid, &projection, &shadow);
-    let curves = || projected.rims.iter().chain(&projected.features);
+    let (outlines, rims) = projected.rims.split_at(projected.outlines);
+    let curves = || outlines.iter().chain(&projected.across).chain(rims).chain(&projected.features);
     let length: f64 =
         curves().flat_map(|c| c.windows(2)).map(|pair: &[DVec2]| pair[0].distance(pair[1])).sum();
     options.refuse_quads(length)?;
@@ -72,13 +74,24 @@ pub fn principal_face(
     }
     let mut graph = embedding.graph;
     let area = cover(&mut graph, &shadow, monitor)?;
-    let given_up = relax(&mut graph);
+    let mut given_up = relax(&mut graph);
     if graph.segments.is_empty() {
         return Err(FaceError::Empty);
     }
     options.refuse_quads(4.0 * area)?;
     monitor.checkpoint(PROJECT, 1.0)?;
-    let quads = mesh(&graph, area, monitor)?;
+    let samples = loop {
+        let arcs = graph.arcs();
+        let crowded: Vec<Arc> = match sample(&graph, &arcs, monitor) {
+            Err(SampleError::Crowded(crowded)) => crowded.iter().map(|&a| arcs[a].clone()).collect(),
+            sampled => break sampled?,
+        };
+        match part(&mut graph, &crowded) {
+            0 => return Err(FaceError::TooClose),
+            parted => given_up += parted,
+        }
+    };
+    let quads = mesh(&samples, area, monitor)?;
     Ok(PrincipalFace { axes: projection.axes, mesh: region_mesh(quads, &projection.scale), given_up })
 }
 

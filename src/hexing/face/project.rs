@@ -15,6 +15,7 @@ use super::graph::{Graph, Segment};
 use super::scale::Projection;
 use super::shadow::Shadow;
 use crate::geometry::Point;
+use crate::hexing::across::{axis_across, faces_both};
 use crate::hexing::direction::PERPENDICULAR;
 use crate::hexing::extent::{Extent, ONE_LEVEL};
 use crate::hexing::steps::step_height;
@@ -37,6 +38,9 @@ pub(super) struct Projected {
     pub(super) rims: Vec<Vec<DVec2>>,
     /// How many of the rims bound what is covered.
     pub(super) outlines: usize,
+    /// Rectangles around round holes and pins across the direction that are a few edges thick at most, so that four cells
+    /// are around their middle. Closed.
+    pub(super) across: Vec<Vec<DVec2>>,
     /// Other feature curves, longest first.
     pub(super) features: Vec<Vec<DVec2>>,
     /// Feature curves along the direction.
@@ -79,7 +83,25 @@ pub(super) fn project(solid: &SolidModel, projection: &Projection, shadow: &Shad
         std::mem::take(&mut projected.rims).into_iter().partition::<Vec<_>, _>(|c| is_outline(c, shadow));
     projected.outlines = outlines.len();
     projected.rims = [outlines, others].concat();
+    projected.across = solid.surfaces().iter().filter_map(|s| around(solid, s, projection)).collect();
     projected
+}
+
+/// The rectangle around a hole or pin across the direction, if it has two sides seen from there.
+fn around(solid: &SolidModel, surface: &Surface, projection: &Projection) -> Option<Vec<DVec2>> {
+    let axis = axis_across(solid, surface, projection.direction(), projection.scale.edge_length())?;
+    let side = projection.direction().cross(axis).normalize();
+    if !faces_both(solid, surface, side) {
+        return None;
+    }
+    let [u, v, _] = projection.axes;
+    let side = DVec2::new(side.dot(u), side.dot(v));
+    let along = side.perp();
+    let corners = surface.triangles.iter().flat_map(|&t| solid.corners_of(t as usize));
+    let seen = corners.map(|p| projection.unit_from_model(p)).map(|p| DVec2::new(p.dot(side), p.dot(along)));
+    let (a, b) = seen.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
+    let corner = |x: f64, y: f64| side * x + along * y;
+    Some(vec![corner(a.x, a.y), corner(b.x, a.y), corner(b.x, b.y), corner(a.x, b.y), corner(a.x, a.y)])
 }
 
 /// Leaves out points that are where the one before is.
@@ -165,10 +187,37 @@ fn chains(solid: &SolidModel, projection: &Projection, rim: &BTreeSet<[u32; 2]>)
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
+    use super::*;
     use crate::Silent;
-    use crate::geometry::Point;
     use crate::hexing::face::{PrincipalFace, RegionOptions, principal_face};
-    use crate::solid::testing::{moved, solid, voxels};
+    use crate::solid::testing::{cylinder, moved, solid, voxels};
+
+    #[test]
+    fn pins_across_have_a_rectangle_around_them_unless_they_are_thick_or_thin() {
+        let around = |radius: f64, direction: Point| {
+            // Along x, from 0 to 2.
+            let pin = moved(cylinder(96), |p| Point::new(p.z, radius * p.x, radius * p.y));
+            let solid = solid(&pin);
+            let projection = Projection::new(solid.points(), direction, 1.0).unwrap();
+            let curves = project(&solid, &projection, &Shadow::new(&solid, &projection)).across;
+            let [u, v, _] = projection.axes;
+            let place = |&p: &DVec2| {
+                let p = projection.scale.model_from_unit(p);
+                u * p.x + v * p.y
+            };
+            curves.iter().map(|curve| curve.iter().map(place).collect()).collect::<Vec<Vec<Point>>>()
+        };
+        let found = around(0.6, Point::Z);
+        let [curve] = &found[..] else { panic!("one pin: {found:?}") };
+        assert!(curve.len() == 5 && curve[0].distance(curve[4]) < 1e-9, "{curve:?}");
+        for corner in [[0.0, -0.6], [2.0, -0.6], [2.0, 0.6], [0.0, 0.6]] {
+            let corner = Point::new(corner[0], corner[1], 0.0);
+            assert!(curve.iter().any(|p| p.distance(corner) < 2e-3), "{corner}: {curve:?}");
+        }
+        for (radius, direction) in [(1.7, Point::Z), (0.3, Point::Z), (0.6, Point::X)] {
+            assert_eq!(around(radius, direction), Vec::<Vec<Point>>::new(), "{radius}");
+        }
+    }
 
     /// The face along z, with edges of 1, of a plate with a slot from x = 4.4 to 8.4.
     fn slotted(thickness: f64, depth: f64) -> PrincipalFace {

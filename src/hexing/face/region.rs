@@ -6,6 +6,7 @@ use super::cells::Quads;
 use super::embed::{Embedding, TOLERANCE};
 use super::graph::{Graph, Segment};
 use super::mesher::{FaceError, mesh};
+use super::sample::sample;
 use super::scale::Scale;
 use super::triangulation::{Outcome, Triangulation};
 use crate::Monitor;
@@ -126,7 +127,8 @@ pub fn quad_region(
         embedding.keep(points[corner as usize]);
     }
     let graph = without_outer_curves(embedding.graph, monitor)?;
-    let quads = mesh(&graph, area, monitor)?;
+    let samples = sample(&graph, &graph.arcs(), monitor)?;
+    let quads = mesh(&samples, area, monitor)?;
     Ok(RegionMesh { dropped, ..region_mesh(quads, &scale) })
 }
 

@@ -3,12 +3,13 @@
 //! 1. Arcs that end within the face without another one there, again and again; closed ones that are too short;
 //! 2. at a node where two arcs part by less than 10 degrees, the shorter of those inside;
 //! 3. at a node of 10 arcs and more, every other one of those inside, around the node, until there are fewer.
+//! 4. of arcs that cannot be told apart by segments that are not much shorter than asked for, the shortest inside.
 //!
 //! The outline is never given up, but for holes that are too short to go around with cells.
 
 use glam::DVec2;
 
-use super::graph::{Arc, Graph, turn};
+use super::graph::{Arc, Graph, Segment, turn};
 
 /// Arcs that part by less than this, in degrees, over-constrain their node. The paper has 5; the first piece of a curve
 /// that leaves another one along it turns by half of what the next ones do.
@@ -33,26 +34,36 @@ pub(super) fn relax(graph: &mut Graph) -> usize {
             return given_up;
         }
         given_up += doomed.len();
-        let mut gone: Vec<[u32; 2]> = Vec::new();
-        for a in doomed {
-            gone.extend(arcs[a].points.windows(2).map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])]));
-        }
-        gone.sort_unstable();
-        let is_gone =
-            |ends: [u32; 2]| gone.binary_search(&[ends[0].min(ends[1]), ends[0].max(ends[1])]).is_ok();
-        graph.segments.retain(|segment| !is_gone(segment.ends));
+        give_up(graph, doomed.iter().map(|&a| &arcs[a]));
     }
+}
+
+/// Takes the shortest inner one of these arcs away, which cannot be told apart, and what is relaxed after that; returns how
+/// many, or none if they all are of the outline.
+pub(super) fn part(graph: &mut Graph, crowded: &[Arc]) -> usize {
+    let inner = crowded.iter().filter(|arc| !arc.outline);
+    let Some(shortest) = inner.min_by(|a, b| length(graph, a).total_cmp(&length(graph, b))) else { return 0 };
+    give_up(graph, [shortest].into_iter());
+    1 + relax(graph)
+}
+
+fn give_up<'a>(graph: &mut Graph, arcs: impl Iterator<Item = &'a Arc>) {
+    let sorted = |a: u32, b: u32| [a.min(b), a.max(b)];
+    let mut gone: Vec<[u32; 2]> =
+        arcs.flat_map(|arc| arc.points.windows(2)).map(|pair| sorted(pair[0], pair[1])).collect();
+    gone.sort_unstable();
+    graph.segments.retain(|Segment { ends: [a, b], .. }| gone.binary_search(&sorted(*a, *b)).is_err());
+}
+
+fn length(graph: &Graph, arc: &Arc) -> f64 {
+    let at = |p: u32| graph.points[p as usize];
+    arc.points.windows(2).map(|pair| at(pair[0]).distance(at(pair[1]))).sum()
 }
 
 /// The arcs that go next, by the first rule that says so.
 fn doomed(graph: &Graph, arcs: &[Arc]) -> Vec<usize> {
     let ends = ends(graph, arcs);
-    let length = |arc: &Arc| -> f64 {
-        arc.points
-            .windows(2)
-            .map(|pair| graph.points[pair[0] as usize].distance(graph.points[pair[1] as usize]))
-            .sum()
-    };
+    let length = |arc: &Arc| length(graph, arc);
     let is_loose = |arc: &Arc| {
         let tips = [arc.points[0], arc.points[arc.points.len() - 1]];
         tips.iter().any(|&tip| ends[tip as usize].len() == 1)

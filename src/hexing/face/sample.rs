@@ -12,8 +12,9 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use super::graph::{Arc, Graph, turn};
-use super::mesher::FaceError;
+use super::mesher::{FaceError, SAMPLE};
 use super::triangulation::{Outcome, Triangulation};
+use crate::hexing::extent::ROUNDED;
 use crate::{Cancelled, Monitor};
 
 /// Segments of a closed arc, at least.
@@ -45,25 +46,50 @@ pub(super) struct SampledSegment {
     arc: u32,
 }
 
+/// Why no nodes were placed.
+#[derive(Debug)]
+pub(super) enum SampleError {
+    Cancelled(Cancelled),
+    /// These arcs cannot be told apart from others by segments that are not much shorter than asked for.
+    Crowded(Vec<usize>),
+}
+
+impl From<Cancelled> for SampleError {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::Cancelled(cancelled)
+    }
+}
+
+impl From<SampleError> for FaceError {
+    fn from(error: SampleError) -> Self {
+        match error {
+            SampleError::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            SampleError::Crowded(_) => Self::TooClose,
+        }
+    }
+}
+
 /// Places nodes along all arcs, so that neither the coarse segments nor the fine ones cross.
-pub(super) fn sample(graph: &Graph, arcs: &[Arc], monitor: &dyn Monitor) -> Result<Samples, FaceError> {
+pub(super) fn sample(graph: &Graph, arcs: &[Arc], monitor: &dyn Monitor) -> Result<Samples, SampleError> {
+    monitor.checkpoint(SAMPLE, 0.0)?;
     let courses: Vec<Course> = arcs.iter().map(|arc| Course::new(graph, arc)).collect();
     let mut counts: Vec<usize> = courses.iter().map(Course::count).collect();
     let most = MOST * counts.iter().sum::<usize>();
+    let mut last = Vec::new();
     for _ in 0..HALVINGS {
         if counts.iter().sum::<usize>() > most {
             break;
         }
         let samples = place(graph, arcs, &courses, &counts);
         let crowded = crowded(&samples, arcs.len(), monitor)?;
-        if !crowded.contains(&true) {
+        last = (0..arcs.len()).filter(|&arc| crowded[arc]).collect();
+        if last.is_empty() {
+            monitor.checkpoint(SAMPLE, 1.0)?;
             return Ok(samples);
         }
-        for (count, _) in counts.iter_mut().zip(crowded).filter(|(_, crowded)| *crowded) {
-            *count *= 2;
-        }
+        last.iter().for_each(|&arc| counts[arc] *= 2);
     }
-    Err(FaceError::TooClose)
+    Err(SampleError::Crowded(last))
 }
 
 /// An arc by its length.
@@ -90,10 +116,11 @@ impl Course {
 
     /// How many segments it gets.
     fn count(&self) -> usize {
-        let count = self.length().round().max(1.0) as usize;
+        let count = |length: f64| (length + ROUNDED).round() as usize;
         if self.closed {
-            return (2 * (self.length() / 2.0).round() as usize).max(LEAST_CLOSED);
+            return (2 * count(self.length() / 2.0)).max(LEAST_CLOSED);
         }
+        let count = count(self.length()).max(1);
         let turns = self.points.windows(3).map(|p| turn(p[1] - p[0], p[2] - p[1]));
         let bent = (turns.sum::<f64>() / MOST_TURN - 1e-3).ceil() as usize;
         if self.length() > 0.5 { count.max(bent) } else { count }
@@ -196,7 +223,7 @@ mod tests {
 
     /// Samples of two rings around one point that are so far from each other: 18 coarse segments each at first, if they are
     /// near.
-    fn rings(apart: f64) -> Result<Samples, FaceError> {
+    fn rings(apart: f64) -> Result<Samples, SampleError> {
         const POINTS: u32 = 4000;
         let mut graph = Graph::default();
         for (radius, from) in [(3.0, 0.0), (3.0 + apart, 0.1)] {
@@ -217,6 +244,6 @@ mod tests {
         assert_eq!(rings(0.5).unwrap().segments.len(), 18 + 22);
         let near = rings(1e-3).unwrap().segments.len();
         assert!((4 * 2 * 18..=MOST * 2 * 18).contains(&near), "{near}");
-        assert!(matches!(rings(1e-5), Err(FaceError::TooClose)));
+        assert!(matches!(rings(1e-5), Err(SampleError::Crowded(arcs)) if arcs == [0, 1]));
     }
 }

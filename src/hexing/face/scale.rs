@@ -9,6 +9,10 @@ use crate::geometry::Point;
 /// How many of the least steps between coordinates an edge must keep.
 const LEAST_STEPS: f64 = 4096.0;
 
+/// So many steps to a unit are told apart in what is projected: what lies whole numbers of edges apart does so up to its last
+/// bit, and what comes of it does not hang on the last bits of the edge length.
+const STEPS: f64 = (1_u64 << 42) as f64;
+
 /// Units of twice the edge length around the middle of a region.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
@@ -73,7 +77,9 @@ impl Projection {
         self.axes[2]
     }
 
+    /// Rounded to whole steps.
     pub(super) fn unit_from_model(&self, p: Point) -> DVec2 {
-        self.scale.unit_from_model(DVec2::new(p.dot(self.axes[0]), p.dot(self.axes[1])))
+        let place = self.scale.unit_from_model(DVec2::new(p.dot(self.axes[0]), p.dot(self.axes[1])));
+        place.map(|x| (x * STEPS).round_ties_even() / STEPS)
     }
 }

@@ -4,6 +4,7 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 use super::graph::{Graph, Segment};
+use super::sample::{SampleError, sample};
 use super::*;
 use crate::geometry::Point;
 use crate::mesh::{NodeId, QuadMesh, check_quads};
@@ -226,10 +227,44 @@ fn nodes_at_one_place_are_too_close() {
             let ends = (0..4).map(|k| [nodes[k], nodes[(k + 1) % 4]]);
             graph.segments.extend(ends.map(|ends| Segment { ends, outline: true }));
         }
-        mesher::mesh(&graph, 32.0, &Silent)
+        mesher::mesh(&sample(&graph, &graph.arcs(), &Silent)?, 32.0, &Silent)
     };
     assert_eq!(mesh(0.5).unwrap().cells.len(), 128);
     assert!(matches!(mesh(0.0), Err(FaceError::TooClose)));
+}
+
+/// A square with two bows across it that are hardly apart, the upper one with a node on it.
+#[test]
+fn of_curves_that_cannot_be_told_apart_the_shortest_is_given_up() {
+    const POINTS: u32 = 2000;
+    let mut graph = Graph::default();
+    let square = [[0.0, 0.0], [8.0, 0.0], [8.0, 8.0], [0.0, 8.0]];
+    let corners = square.map(|p| graph.add(p.into(), false));
+    let mut bow = |rise: f64, node: u32| -> Vec<u32> {
+        let at = |k: u32| 8.0 * f64::from(k) / f64::from(POINTS);
+        let place = |x: f64| DVec2::new(x, 4.0 + rise + libm::sin(x * std::f64::consts::PI / 8.0));
+        (0..=POINTS).map(|k| graph.add(place(at(k)), k == node)).collect()
+    };
+    let [lower, upper] = [bow(0.0, POINTS), bow(1e-6, POINTS / 3)];
+    let mut lay = |nodes: &[u32], outline: bool| {
+        let ends = nodes.windows(2).map(|pair| [pair[0], pair[1]]);
+        graph.segments.extend(ends.map(|ends| Segment { ends, outline }));
+    };
+    let [a, b, c, d] = corners;
+    let last = POINTS as usize;
+    lay(&[a, b, lower[last], upper[last], c, d, upper[0], lower[0], a], true);
+    lay(&lower, false);
+    lay(&upper, false);
+    let arcs = graph.arcs();
+    let Err(SampleError::Crowded(crowded)) = sample(&graph, &arcs, &Silent) else { panic!("too close") };
+    let crowded: Vec<_> = crowded.into_iter().map(|arc| arcs[arc].clone()).collect();
+    assert_eq!(relax::part(&mut graph, &crowded), 2, "the shorter part, and what ends in it");
+    let inner = |graph: &Graph| graph.segments.iter().filter(|s| !s.outline).map(|s| s.ends[0]).collect();
+    let left: Vec<u32> = inner(&graph);
+    assert_eq!(left, lower[..last]);
+    assert!(sample(&graph, &graph.arcs(), &Silent).is_ok());
+    let outline: Vec<_> = graph.arcs().into_iter().filter(|arc| arc.outline).collect();
+    assert_eq!(relax::part(&mut graph, &outline), 0);
 }
 
 /// Says stop after so many questions.

@@ -19,8 +19,9 @@ use crate::optimize::{Evening, Problem, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
-/// It goes on until they are this share of what is near from each other.
-const ENOUGH: f64 = 0.8;
+/// It goes on until they are this share of what is near from each other, if that is asked for, or else this one.
+const ENOUGH_ASKED: f64 = 0.8;
+const ENOUGH: f64 = 0.55;
 
 /// So many rounds of making room, as long as one of the last few brought something; where they are near, one of the last two, which
 /// make it in either way.
@@ -58,8 +59,8 @@ impl Fitted {
             range: [from, to].map(|share| APPROACH + (1.0 - APPROACH) * share),
         };
         let evening = Evening::ALL[0];
-        let terms =
-            Terms { leave: 0.5 * max_distance, evening, enough: ENOUGH * limit, fair: fair.min(GOOD) };
+        let enough = limit * if max_distance.is_finite() { ENOUGH_ASKED } else { ENOUGH };
+        let terms = Terms { leave: 0.5 * max_distance, evening, enough, fair: fair.min(GOOD) };
         let mut survey = survey.map_or_else(|| Survey::new(mesh, &on.faces, solid, &part(0.0, ROOM)), Ok)?;
         let mut came = course(mesh, on, &self.holds, (&mut survey, &self.far), terms, &part(0.0, ROOM))?;
         let mut sweeps = self.report.sweeps + came.sweeps;
@@ -158,7 +159,7 @@ mod tests {
 
     #[test]
     fn room_is_made_where_they_stay_apart() {
-        let (alone, _, few) = approached(0.65, 0.12, GOOD);
+        let (alone, _, few) = approached(0.65, 0.18, GOOD);
         let (with_room, best, many) = approached(0.65, 0.05, GOOD);
         assert!(with_room < 0.95 * alone && best >= GOOD && many > few, "{with_room} {alone} {best}");
     }

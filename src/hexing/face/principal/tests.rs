@@ -89,3 +89,17 @@ fn a_turned_solid_has_the_same_face() {
     assert!((count(&face) / count(&plain) - 1.0).abs() < 0.1 && face.mesh.worst > 0.3, "{}", face.mesh.worst);
     assert!((area(&face) - 8.0).abs() < 1e-9);
 }
+
+/// All of the solid is whole numbers of edges long, and half ones.
+#[test]
+fn the_last_bits_of_the_edge_length_bring_no_other_face() {
+    let quads = |edge_length: f64| face(&holed(), Point::Z, edge_length).mesh.quads;
+    for edge_length in [0.1, 1.0 / 3.0, 0.4] {
+        let expected = quads(edge_length);
+        let mut near = [edge_length; 2];
+        for _ in 0..8 {
+            near = [near[0].next_down(), near[1].next_up()];
+            assert_eq!(near.map(quads), [expected.clone(), expected.clone()], "{near:?}");
+        }
+    }
+}
