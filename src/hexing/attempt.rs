@@ -20,6 +20,10 @@ use crate::{Cancelled, Monitor};
 /// if it is kept: smaller cells are tried first, since those it has hardly ever get near enough.
 const HOPELESS: f64 = 1.4;
 
+/// Unless somebody asked for the distance, smaller cells are tried only where mesh and solid are farther from each other than so
+/// many times what is near: that takes as long again, and brings little where little is missing.
+const TOO_FAR: f64 = 1.2;
+
 /// Fair cells are better than good ones have to be by this: rounding, and smoothing once more, do not make them bad.
 const SPARE: f64 = 0.01;
 
@@ -150,6 +154,7 @@ impl Draft {
         let mut sheets = insert_sheets(&mut mesh, &mut on, solid, monitor)?;
         let max_distance = options.max_distance.unwrap_or(f64::INFINITY);
         let near = tolerance(site, kind);
+        let too_far = if options.max_distance.is_some() { near } else { TOO_FAR * near };
         let fair = site.taste.good + SPARE;
         let fit_options = FitOptions { max_distance, near, fair, ..FitOptions::default() };
         let (fitted, survey) = fit(&mut mesh, &mut on, &mut sheets, solid, &fit_options, monitor)?;
@@ -165,7 +170,7 @@ impl Draft {
         let mut meshed = Meshed { mesh, on, fitted, approach: None };
         let look = |meshed: &Meshed| -> Result<(Distances, Vec<Failure>), Cancelled> {
             let Meshed { mesh, on, .. } = meshed;
-            let (distance, far) = distances(mesh, on, solid, near, monitor)?;
+            let (distance, far) = distances(mesh, on, solid, too_far, monitor)?;
             Ok((distance, misses(site, kind, &core, &on.reduction, far, &cells)))
         };
         let is_hopeless = options.max_distance.is_none() && apart > HOPELESS * near;
@@ -238,7 +243,7 @@ mod tests {
 
     use super::super::fit::APPROACH;
     use super::super::fit::testing::house;
-    use super::super::merit::distance;
+    use super::super::merit::{Taste, distance};
     use super::super::options::HexingOptions;
     use super::*;
     use crate::{Silent, Stage};
@@ -366,5 +371,14 @@ mod tests {
         let [lost, both] = [10.0, 0.03].map(|max_distance| fitted(0.7, max_distance));
         assert!(lost.failures > 0 && lost.distance < 10.0, "it misses something else");
         assert!(both.failures > lost.failures && both.distance > 0.03 && !both.approached);
+    }
+
+    #[test]
+    fn what_is_hardly_too_far_is_not_missed_where_nobody_asked() {
+        let edge_length = 0.3;
+        let near = Taste::of(&house(0.0).0).near * edge_length;
+        let [hardly, clearly] = [0.55, 0.73].map(|aside| fitted_with(edge_length, aside, None));
+        assert!(near < hardly.distance && hardly.distance < TOO_FAR * near && hardly.failures == 0);
+        assert!(clearly.distance > TOO_FAR * near && clearly.failures > 0);
     }
 }

@@ -1,11 +1,12 @@
 //! A grid along the solid's axes, with lines in its planar surfaces, where the solid is.
 //!
 //! 1. Lines: through planar surfaces, even between them (`lines`).
-//! 2. Cells that the surface touches, and all around these (`touched`, `rows`).
+//! 2. Cells that the surface touches, and those beside whose halves it touches (`touched`, `rows`).
 //! 3. Gaps between them along x that are inside.
 //! 4. A few cells more where cells would touch at an edge or a node only.
 //!
-//! So each cell whose centre is inside has all its neighbours, and none is further from the solid than about two edges.
+//! So each cell whose centre is inside has all its neighbours: on the way from that to one outside the surface is met in the
+//! half on this side, or beyond. Few cells are outside, and none is further from the solid than about an edge.
 
 use glam::DMat3;
 
@@ -119,13 +120,20 @@ const BACKGROUND: Stage = Stage("background");
 /// Share of an edge: a planar surface no thicker than this along an axis is perpendicular to it.
 const FLAT: f64 = 0.02;
 
+/// Share of a cell: what comes so near to a face touches the cell beyond.
+const REACH: f64 = 0.5;
+
 /// How many of the least steps between coordinates an edge must keep, so that the hexes are alike to three digits.
 const LEAST_STEPS: f64 = 1024.0;
 
-/// About how many hexes an edge length gives: those in the solid, and three layers at its surface.
+/// Layers of cells that a grid has outside a solid, about; a mesh has as many, where sheets are inserted.
+const LAYERS: f64 = 1.5;
+
+/// About how many hexes an edge length gives, be it of a grid or of a mesh: those in the solid, and one and a half layers
+/// at its surface.
 pub fn estimate_hexes(solid: &SolidModel, edge_length: f64) -> f64 {
     let area: f64 = solid.surfaces().iter().map(|surface| surface.area).sum();
-    solid.volume() / (edge_length * edge_length * edge_length) + 3.0 * area / (edge_length * edge_length)
+    solid.volume() / (edge_length * edge_length * edge_length) + LAYERS * area / (edge_length * edge_length)
 }
 
 /// Makes the grid. Nodes and hexes are numbered along the first axis, then the second, then the third. The mesh is a
@@ -139,7 +147,7 @@ pub fn grid(
     options: &AlignedGrid,
     monitor: &dyn Monitor,
 ) -> Result<HexMesh, BackgroundError> {
-    Ok(laid(solid, options, false, monitor)?.0)
+    Ok(laid(solid, options, (REACH, false), monitor)?.0)
 }
 
 /// As [`grid`], but of whole blocks.
@@ -148,13 +156,24 @@ pub(super) fn grid_of_blocks(
     options: &AlignedGrid,
     monitor: &dyn Monitor,
 ) -> Result<(HexMesh, HexBlocks), BackgroundError> {
-    laid(solid, options, true, monitor)
+    laid(solid, options, (REACH, true), monitor)
+}
+
+/// As [`grid`], but to be refined at the boundary by so many levels: it is these cells that have all their neighbours.
+pub(super) fn grid_to_refine(
+    solid: &SolidModel,
+    options: &AlignedGrid,
+    boundary_level: u8,
+    monitor: &dyn Monitor,
+) -> Result<HexMesh, BackgroundError> {
+    let reach = REACH / f64::from(1u32 << boundary_level.min(31));
+    Ok(laid(solid, options, (reach, false), monitor)?.0)
 }
 
 fn laid(
     solid: &SolidModel,
     options: &AlignedGrid,
-    in_blocks: bool,
+    (reach, in_blocks): (f64, bool),
     monitor: &dyn Monitor,
 ) -> Result<(HexMesh, HexBlocks), BackgroundError> {
     let &AlignedGrid { edge_length, axes, shift, max_hexes } = options;
@@ -172,7 +191,7 @@ fn laid(
         lines([bounds.min[axis], bounds.max[axis]], &planes, edge_length, shift[axis])
     });
     monitor.checkpoint(BACKGROUND, 0.1)?;
-    let shell = touched(&lines, solid.triangles().len(), corners, monitor)?.grown();
+    let shell = touched(&lines, reach, solid.triangles().len(), corners, monitor)?;
     monitor.checkpoint(BACKGROUND, 0.5)?;
     let position = |at: [u32; 3]| Point::from([0, 1, 2].map(|i| lines[i][at[i] as usize]));
     let centre = |at: [u32; 3]| axes * position(at).midpoint(position(at.map(|c| c + 1)));

@@ -7,7 +7,7 @@
 //! Any background can be refined so; an octree is an aligned grid, coarser than wanted, with its boundary refined.
 
 use super::demand::Demands;
-use super::grid::{AlignedGrid, BackgroundError, grid, grid_of_blocks};
+use super::grid::{AlignedGrid, BackgroundError, grid_of_blocks, grid_to_refine};
 use crate::Monitor;
 use crate::mesh::HexMesh;
 use crate::refine::hex::{HexBlocks, HexOptions, HexPlan, HexRefineError, Method};
@@ -66,7 +66,7 @@ pub fn octree(
     let wanted = &options.wanted;
     let regions = regions(solid, edge_length, wanted, monitor)?;
     if regions.is_empty() || wanted.boundary_level > 0 || !wanted.in_blocks {
-        let mesh = grid(solid, &options.grid, monitor)?;
+        let mesh = grid_to_refine(solid, &options.grid, wanted.boundary_level, monitor)?;
         return refined_in(mesh, None, regions, wanted.boundary_level, max_hexes, monitor);
     }
     let (mesh, blocks) = grid_of_blocks(solid, &options.grid, monitor)?;
@@ -160,6 +160,7 @@ fn regions(
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
+    use super::super::grid::grid;
     use super::*;
     use crate::Silent;
     use crate::geometry::Point;

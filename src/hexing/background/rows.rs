@@ -95,18 +95,6 @@ impl Rows {
         self.run_at(x, y, z).is_some()
     }
 
-    /// These cells and all that share a node with one of them, within the grid.
-    pub fn grown(&self) -> Self {
-        let [nx, ny, nz] = self.counts;
-        let around = |c: u32, count: u32| c.saturating_sub(1)..(c + 2).min(count);
-        let grown = self.all().flat_map(|([y, z], run)| {
-            let (start, end) = (run.start.saturating_sub(1), (run.end + 1).min(nx));
-            let rows = around(z, nz).flat_map(move |z| around(y, ny).map(move |y| [y, z]));
-            rows.map(move |[y, z]| (Self::row(self.counts, y, z), start, end))
-        });
-        Self::merged(self.counts, grown.collect())
-    }
-
     /// These cells and the gaps between runs of a row whose first cell `is_inside`.
     pub fn filled(&self, is_inside: impl Fn([u32; 3]) -> bool + Sync) -> Self {
         let gaps = parallel::gather(self.rows.len(), |r, found: &mut Vec<Run>| {
@@ -259,13 +247,6 @@ mod tests {
             assert_eq!(rows.number(x, y, z), Some(number as u64));
         }
         assert_eq!(cells(|[x, y, z]| rows.holds(x, y, z)), some);
-    }
-
-    #[test]
-    fn growing_adds_what_shares_a_node() {
-        let some = [[0, 0, 0], [3, 2, 1], [5, 4, 3]];
-        let near = |a: [u32; 3], b: [u32; 3]| (0..3).all(|i| a[i].abs_diff(b[i]) <= 1);
-        assert_eq!(rows(&some).grown(), rows(&cells(|cell| some.iter().any(|&s| near(s, cell)))));
     }
 
     #[test]

@@ -6,16 +6,14 @@ use crate::geometry::Point;
 use crate::parallel;
 use crate::{Cancelled, Monitor};
 
-/// Share of a cell: what comes so near to a line touches both sides.
-const TOUCH: f64 = 1e-6;
-
-/// The cells between `lines`, which ascend along each axis, that the triangles touch, and some of their neighbours. All
-/// triangles lie within the lines.
+/// The cells between `lines`, which ascend along each axis, that the triangles touch, and some of their neighbours: what is no
+/// farther from a line than the share `reach` of its cell touches both sides. All triangles lie within the lines.
 ///
-/// A triangle is halved across its longest edge until its box takes no more than two cells along each axis; then all of
-/// them count as touched. So the work grows with the area and with the number of triangles.
+/// A triangle is halved across its longest edge until its box lies in no more than two cells along each axis; then all that
+/// the box touches count as touched. So the work grows with the area and with the number of triangles.
 pub(super) fn touched(
     lines: &[Vec<f64>; 3],
+    reach: f64,
     triangle_count: usize,
     triangle: impl Fn(usize) -> [Point; 3] + Sync,
     monitor: &dyn Monitor,
@@ -24,10 +22,10 @@ pub(super) fn touched(
     let runs = parallel::try_blocks(triangle_count, BLOCK, monitor, |block| {
         let mut runs = Vec::new();
         let is_small =
-            |piece: &[Point; 3]| cells_around(lines, piece).iter().all(|[from, to]| to - from <= 1);
+            |piece: &[Point; 3]| cells_around(lines, 0.0, piece).iter().all(|[from, to]| to - from <= 1);
         block.for_each(|t| {
             pieces(triangle(t), is_small, &mut |piece| {
-                runs_of(counts, cells_around(lines, &piece), &mut runs);
+                runs_of(counts, cells_around(lines, reach, &piece), &mut runs);
             });
         });
         // Small triangles touch the same cells again and again.
@@ -45,17 +43,17 @@ const BLOCK: usize = 256;
 type Cells = [[u32; 2]; 3];
 
 /// The cells that the box around a triangle touches.
-fn cells_around(lines: &[Vec<f64>; 3], [a, b, c]: &[Point; 3]) -> Cells {
+fn cells_around(lines: &[Vec<f64>; 3], reach: f64, [a, b, c]: &[Point; 3]) -> Cells {
     let (min, max) = (a.min(*b).min(*c), a.max(*b).max(*c));
-    std::array::from_fn(|i| cells_between(&lines[i], [min[i], max[i]]))
+    std::array::from_fn(|i| cells_between(&lines[i], reach, [min[i], max[i]]))
 }
 
 /// The least and the greatest cell that an interval touches.
-fn cells_between(lines: &[f64], [from, to]: [f64; 2]) -> [u32; 2] {
+fn cells_between(lines: &[f64], reach: f64, [from, to]: [f64; 2]) -> [u32; 2] {
     let last = lines.len() - 2;
     let at = |x: f64| lines.partition_point(|&line| line <= x).saturating_sub(1).min(last);
     let (mut least, mut most) = (at(from), at(to));
-    let near = |cell: usize| TOUCH * (lines[cell + 1] - lines[cell]);
+    let near = |cell: usize| reach * (lines[cell + 1] - lines[cell]);
     if least > 0 && from - lines[least] <= near(least) {
         least -= 1;
     }
@@ -90,7 +88,7 @@ mod tests {
                 Point::from(p) + Point::splat(0.3)
             };
             let corners = [at(1), at(2), at(5)];
-            let found = touched(&lines, 1, |_| corners, &Silent).unwrap();
+            let found = touched(&lines, 0.0, 1, |_| corners, &Silent).unwrap();
             let mut within = Vec::new();
             for i in 0..=100 {
                 for j in 0..=100 - i {
@@ -109,9 +107,23 @@ mod tests {
     fn what_lies_on_lines_touches_both_sides() {
         let lines = [even(6), even(6), even(6)];
         let corners = [Point::new(2.0, 2.0, 3.0), Point::new(4.0, 2.0, 3.0), Point::new(2.0, 4.0, 3.0)];
-        let found = touched(&lines, 1, |_| corners, &Silent).unwrap();
+        let found = touched(&lines, 0.0, 1, |_| corners, &Silent).unwrap();
         for [x, y] in [[1, 1], [2, 2], [4, 1], [1, 4], [3, 2]] {
             assert!(found.holds(x, y, 2) && found.holds(x, y, 3), "{x} {y}");
+        }
+    }
+
+    /// A triangle in the middle of a cell, but for one axis.
+    #[test]
+    fn what_comes_near_to_a_line_touches_the_cell_beyond() {
+        let lines = [even(6), even(6), even(6)];
+        for (x, beyond) in [(3.1, Some(2)), (3.24, Some(2)), (3.26, None), (3.74, None), (3.76, Some(4))] {
+            let corners =
+                [[0.0, 0.0], [0.02, 0.0], [0.0, 0.02]].map(|[y, z]| Point::new(x, 3.5 + y, 3.5 + z));
+            let found = touched(&lines, 0.25, 1, |_| corners, &Silent).unwrap();
+            let mut expected: Vec<[u32; 3]> = beyond.into_iter().chain([3]).map(|x| [x, 3, 3]).collect();
+            expected.sort_unstable();
+            assert_eq!(found.map(|cell| cell), expected, "{x}");
         }
     }
 }
