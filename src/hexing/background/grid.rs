@@ -120,8 +120,9 @@ const BACKGROUND: Stage = Stage("background");
 /// Share of an edge: a planar surface no thicker than this along an axis is perpendicular to it.
 const FLAT: f64 = 0.02;
 
-/// Share of a cell: what comes so near to a face touches the cell beyond.
-const REACH: f64 = 0.5;
+/// Share of a cell: what comes so near to a face touches the cell beyond. A little more than half: rounding is not to decide
+/// on planes halfway.
+const REACH: f64 = 0.501;
 
 /// How many of the least steps between coordinates an edge must keep, so that the hexes are alike to three digits.
 const LEAST_STEPS: f64 = 1024.0;

@@ -165,6 +165,7 @@ mod tests {
     use crate::Silent;
     use crate::geometry::Point;
     use crate::mesh::check_hexes;
+    use crate::mesh::topology::hex_boundary;
     use crate::solid::testing::{cylinder, solid, voxels};
 
     fn made(solid: &SolidModel, edge_length: f64, wanted: Wanted<'_>) -> OctreeMesh {
@@ -191,6 +192,22 @@ mod tests {
         let depth = |h: usize| solid.signed_distance(center(&made.mesh, h)).abs();
         let coarse: Vec<usize> = (0..made.level.len()).filter(|&h| made.level[h] == 0).collect();
         assert!(!coarse.is_empty() && coarse.iter().all(|&h| depth(h) > 0.5), "transitions are away from it");
+    }
+
+    #[test]
+    fn cells_inside_have_all_neighbours_and_few_are_outside() {
+        for (solid, edge_length) in [(solid(&cylinder(40)), 0.22), (solid(&voxels([8, 5, 3], |_| true)), 1.3)]
+        {
+            let made = made(&solid, edge_length, Wanted { boundary_level: 1, ..Wanted::default() });
+            let rim: std::collections::BTreeSet<_> =
+                hex_boundary(&made.mesh.hexes).iter().flat_map(|(face, _)| *face).collect();
+            let is_inside = |h: &usize| solid.contains(center(&made.mesh, *h));
+            let inside: Vec<usize> = (0..made.level.len()).filter(is_inside).collect();
+            assert!(inside.iter().all(|&h| made.mesh.hexes[h].iter().all(|n| !rim.contains(n))));
+            let far = (0..made.level.len()).map(|h| solid.signed_distance(center(&made.mesh, h)));
+            let far = far.fold(0.0, f64::max) / edge_length;
+            assert!(far < 1.75, "{far}");
+        }
     }
 
     #[test]
