@@ -10,8 +10,8 @@ use crate::geometry::{Aabb, BoxIndex, Point};
 /// the cells are.
 const NEAR: f64 = 0.003;
 
-/// How far mesh and solid may be from each other before smaller cells are tried: beyond that a feature is not shown that
-/// these may show.
+/// How near mesh and solid are to be to each other, or a little more (`attempt`), before smaller cells are tried: beyond that
+/// a feature is not shown that these may show.
 pub(super) fn tolerance(site: &Site<'_>, kind: Background) -> f64 {
     let of_edge = site.taste.near * site.options.edge_length;
     let of_solid = if kind == Background::Swept { 0.0 } else { NEAR * site.solid.diagonal() };
