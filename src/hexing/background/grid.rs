@@ -6,7 +6,7 @@
 //! 4. A few cells more where cells would touch at an edge or a node only.
 //!
 //! So each cell whose centre is inside has all its neighbours: on the way from that to one outside the surface is met in the
-//! half on this side, or beyond. Few cells are outside, and none is further from the solid than about an edge.
+//! half on this side, or beyond. Few cells are outside, and none is further from the solid than about two edges.
 
 use glam::DMat3;
 
@@ -148,7 +148,7 @@ pub fn grid(
     options: &AlignedGrid,
     monitor: &dyn Monitor,
 ) -> Result<HexMesh, BackgroundError> {
-    Ok(laid(solid, options, (REACH, false), monitor)?.0)
+    grid_to_refine(solid, options, 0, monitor)
 }
 
 /// As [`grid`], but of whole blocks.
@@ -312,7 +312,7 @@ mod tests {
             hex.iter().map(|n| mesh.positions[n.index()]).sum::<Point>() / 8.0
         };
         let far = mesh.hexes.iter().map(|hex| solid.signed_distance(centre(hex))).fold(0.0, f64::max);
-        assert!(far < 3.0 * edge_length, "{far}");
+        assert!(far < 2.2 * edge_length, "{far}");
         // What is missing around a cell would leave a boundary face at its corners.
         let faces = crate::mesh::topology::hex_boundary(&mesh.hexes);
         let rim: std::collections::BTreeSet<_> = faces.iter().flat_map(|(face, _)| *face).collect();
