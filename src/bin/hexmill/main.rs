@@ -4,11 +4,9 @@
 #[cfg(not(target_arch = "wasm32"))]
 mod cli;
 
-/// Meshes are made in arrays of megabytes: an allocator that keeps its pages spares the system's clearing them anew,
-/// which is half of the time of a refinement.
 #[cfg(not(target_arch = "wasm32"))]
 #[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+static ALLOCATOR: cli::Allocator = cli::Allocator;
 
 #[cfg(not(target_arch = "wasm32"))]
 fn main() -> std::process::ExitCode {

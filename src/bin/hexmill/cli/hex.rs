@@ -17,7 +17,6 @@ use super::files::{format_for_hexes, format_for_second_order, load};
 use super::making::Made;
 use super::memory::{ADVICE, Limit};
 use super::mesh_report::{Counts, quality_table};
-use super::pages::give_back_soon;
 use super::progress::Progress;
 use super::report::{OptionsReport, Report, SolidOptions};
 use super::words::counted;
@@ -28,7 +27,6 @@ const BYTES_PER_HEX: u64 = 1000;
 
 /// Reads a closed surface, fills it with hexes, writes and reports.
 pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
-    give_back_soon();
     let format = match args.second_order {
         Some(_) => format_for_second_order(&args.making.output)?,
         None => format_for_hexes(&args.making.output)?,

@@ -1,5 +1,6 @@
 //! The command line of hexmill: reads files, calls the library, writes files and tells how it went.
 
+mod allocator;
 mod args;
 mod check;
 mod convert;
@@ -10,7 +11,6 @@ mod hex;
 mod making;
 mod memory;
 mod mesh_report;
-mod pages;
 mod plan;
 mod progress;
 mod quad;
@@ -26,12 +26,19 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+pub(crate) use allocator::Allocator;
+use allocator::{give_back_at_once, keep_pages};
 use args::{Cli, Command};
 
 /// Does what the arguments ask for.
 pub fn run() -> ExitCode {
     files::remove_unfinished_when_interrupted();
     let cli = Cli::parse();
+    if matches!(cli.command, Command::Hex(_)) {
+        give_back_at_once()
+    } else {
+        keep_pages()
+    }
     let done = match cli.command {
         Command::Refine(args) if args.plan => plan::run(&args, cli.quiet),
         Command::Refine(args) => refine::run(&args, cli.quiet),
