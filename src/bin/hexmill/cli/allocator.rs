@@ -21,15 +21,17 @@ pub(super) fn keep_pages() {
     KEEPS_PAGES.store(true, Relaxed);
 }
 
-/// Large arrays that are freed go back to the system at once, however many there are. Without this it keeps the more the larger
-/// they were.
+/// Large arrays that are freed go back to the system at once, however many there are, and what is free at the end of the heap but
+/// for as much. Without this the system keeps the more the larger they were.
 pub(super) fn give_back_at_once() {
     #[cfg(target_env = "gnu")]
     {
-        const LARGE: libc::c_int = 1 << 17;
-        // SAFETY: the option may be set at any time.
-        let is_set = unsafe { libc::mallopt(libc::M_MMAP_THRESHOLD, LARGE) };
-        debug_assert_eq!(is_set, 1, "the option is known, and in range");
+        const LARGE: libc::c_int = 1 << 19;
+        for option in [libc::M_MMAP_THRESHOLD, libc::M_TRIM_THRESHOLD, libc::M_TOP_PAD] {
+            // SAFETY: options may be set at any time.
+            let is_set = unsafe { libc::mallopt(option, LARGE) };
+            debug_assert_eq!(is_set, 1, "the option is known, and in range");
+        }
     }
 }
 
