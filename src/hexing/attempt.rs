@@ -1,6 +1,6 @@
 //! One pass from a background to a draft, from there to a mesh, and what came of it.
 
-use super::background::{Background, Failure, OctreeMesh};
+use super::background::{Background, Failure, Missed, OctreeMesh};
 use super::core::{Core, CoreOptions, CoreReport, core};
 use super::correspondence::{Correspondence, correspond};
 use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, NEARER, Part, Survey, fit, quality};
@@ -23,6 +23,10 @@ const HOPELESS: f64 = 1.4;
 /// Unless somebody asked for the distance, smaller cells are tried only where mesh and solid are farther from each other than so
 /// many times what is near: that takes as long again, and brings little where little is missing.
 const TOO_FAR: f64 = 1.2;
+
+/// A sweep is refined only where they are farther from each other than so many times what is near: the cells that are cut for
+/// that are poorer than those of a grid, and the cells beside them.
+const TOO_FAR_FROM_SWEEP: f64 = 2.0;
 
 /// Fair cells are better than good ones have to be by this: rounding, and smoothing once more, do not make them bad.
 const SPARE: f64 = 0.01;
@@ -184,7 +188,11 @@ impl Draft {
                 seen = None;
             }
         }
-        let (distance, failures) = seen.map_or_else(|| look(&meshed), Ok)?;
+        let (distance, mut failures) = seen.map_or_else(|| look(&meshed), Ok)?;
+        let may_stay = kind == Background::Swept && options.max_distance.is_none();
+        if may_stay && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near {
+            failures.retain(|failure| failure.missed != Missed::Far);
+        }
         let came = &meshed.fitted.report;
         report.mesh = Some(MeshedReport {
             sheets: SheetCounts::new(&sheets, came),
@@ -246,6 +254,7 @@ mod tests {
     use super::super::merit::{Taste, distance};
     use super::super::options::HexingOptions;
     use super::*;
+    use crate::solid::testing::{moved, solid, voxels};
     use crate::{Silent, Stage};
 
     /// Hears whether a mesh approaches its solid.
@@ -292,13 +301,17 @@ mod tests {
         max_distance: Option<f64>,
         monitor: &dyn Monitor,
     ) -> (AttemptReport, Meshed, Vec<Failure>) {
-        let options = HexingOptions {
-            edge_length,
-            background: Background::Grid,
-            max_distance,
-            ..HexingOptions::default()
-        };
-        let site = Site::new(solid, &options, &Silent).unwrap();
+        let background = Background::Grid;
+        let options = HexingOptions { edge_length, background, max_distance, ..HexingOptions::default() };
+        first_attempt(solid, &options, monitor)
+    }
+
+    fn first_attempt(
+        solid: &SolidModel,
+        options: &HexingOptions,
+        monitor: &dyn Monitor,
+    ) -> (AttemptReport, Meshed, Vec<Failure>) {
+        let site = Site::new(solid, options, &Silent).unwrap();
         let plan = site.plan(site.choice.kind);
         let background = site.background(&plan, u64::MAX, &Silent).unwrap();
         let draft = draft(&site, &plan, background, None, &Silent).unwrap().ok().unwrap();
@@ -380,5 +393,29 @@ mod tests {
         let [hardly, clearly] = [0.55, 0.73].map(|aside| fitted_with(edge_length, aside, None));
         assert!(near < hardly.distance && hardly.distance < TOO_FAR * near && hardly.failures == 0);
         assert!(clearly.distance > TOO_FAR * near && clearly.failures > 0);
+    }
+
+    /// A bent plate with dimples that no cells of a sweep show.
+    #[test]
+    fn a_sweep_is_refined_only_where_it_is_far_off_unless_a_distance_is_asked_for() {
+        let missed = |depth: f64, max_distance: Option<f64>| {
+            let dimple = |p: Point| depth * (1.0 - (p.truncate() - 10.0).length()).max(0.0);
+            let bent = |p: Point| Point::new(p.x + 3.0 * libm::sin(p.y / 4.0), p.y, p.z);
+            let plate = voxels([20, 20, 6], |_| true);
+            let surface = moved(plate, |p| bent(if p.z == 6.0 { p - Point::Z * dimple(p) } else { p }));
+            let options = HexingOptions { edge_length: 1.5, max_distance, ..HexingOptions::default() };
+            let solid = solid(&surface);
+            let (report, _, failures) = first_attempt(&solid, &options, &Silent);
+            assert_eq!(report.background, Background::Swept);
+            (
+                distance(&report) / (Taste::of(&solid).near * 1.5),
+                failures.iter().filter(|failure| failure.missed == Missed::Far).count(),
+            )
+        };
+        let [stays, asked, far] =
+            [(1.4, None), (1.4, Some(TOO_FAR * 0.3)), (1.6, None)].map(|(depth, asked)| missed(depth, asked));
+        let between = TOO_FAR..TOO_FAR_FROM_SWEEP;
+        assert!(between.contains(&stays.0) && stays.1 == 0 && asked.1 > 0, "{stays:?} {asked:?}");
+        assert!(far.0 > TOO_FAR_FROM_SWEEP && far.1 > 0, "{far:?}");
     }
 }

@@ -250,7 +250,7 @@ mod tests {
             let plate = voxels([20, 20, 6], |_| true);
             let surface = moved(plate, |p| bent(if p.z == 6.0 { p - Point::Z * dimple(p) } else { p }));
             let options =
-                HexingOptions { edge_length: 1.5, max_distance: Some(0.09), ..HexingOptions::default() };
+                HexingOptions { edge_length: 1.5, max_distance: Some(0.095), ..HexingOptions::default() };
             let solid = solid(&surface);
             let Body { report, .. } = mesh_body(&solid, &options, &Silent).unwrap();
             let fitted = report.attempts.iter().filter(|attempt| attempt.mesh.is_some());
