@@ -2,7 +2,8 @@
 //!
 //! 1. Points of the boundary where smaller cells are wanted, by level (`demand`).
 //! 2. Conforming refinement around them ([`refine::hex`](crate::refine::hex)), as far that the transitions to coarser
-//!    cells are two of these away from the boundary: by halves, or by thirds where halves would spread over everything.
+//!    cells are two of these away from the boundary: by halves, or by thirds where halves would spread too far. What is cut
+//!    away around the solid need not keep its shape: transitions have room up to the rim of the background.
 //!
 //! Any background can be refined so; an octree is an aligned grid, coarser than wanted, with its boundary refined.
 
@@ -101,20 +102,37 @@ fn refined_in(
     }
     let halved = HexOptions { regions, max_hexes, ..HexOptions::default() };
     let thirds = HexOptions { method: Method::Three, ..halved.clone() };
-    let in_halves = HexPlan::of_conforming(&background, blocks.as_ref(), &halved, monitor);
-    let plan = match in_halves {
-        Ok(plan) if plan.tree_hexes() < 8 * background.hexes.len() => plan,
+    let all_halved = 8 * background.hexes.len();
+    let is_in_groups = boundary_level > 0 || blocks.is_some();
+    let halved = if is_in_groups || all_halved as u64 <= max_hexes {
+        halved
+    } else {
+        // Where halves spread over more than what thirds take, they need not be followed further.
+        let fewest = fewest_hexes(HexPlan::fewest_hexes(&background, &thirds, monitor))?;
+        HexOptions { max_hexes: max_hexes.min(fewest), ..halved }
+    };
+    let plan = match HexPlan::of_conforming(&background, blocks.as_ref(), &halved, monitor) {
+        Ok(plan) if plan.tree_hexes() < all_halved => plan,
         // All of the boundary is wanted finer, in halves.
         plan if boundary_level > 0 => plan?,
-        plan => fewest(plan, HexPlan::of_conforming(&background, None, &thirds, monitor))?,
+        plan => of_fewer(plan, HexPlan::of_conforming(&background, None, &thirds, monitor))?,
     };
     let refined = plan.carry_out(monitor)?;
     Ok(OctreeMesh { mesh: refined.mesh, level: refined.level })
 }
 
+/// The fewest hexes of a refinement, as far as they can be told.
+fn fewest_hexes(hexes: Result<usize, HexRefineError>) -> Result<u64, HexRefineError> {
+    match hexes {
+        Ok(hexes) => Ok(hexes as u64),
+        Err(HexRefineError::Cancelled(cancelled)) => Err(cancelled.into()),
+        Err(_) => Ok(u64::MAX),
+    }
+}
+
 /// The plan of fewer hexes: where the cells to be halved are not in groups of two by two, all of the background would have
 /// to be, while any of them can be cut in 27 (section 4.3.2).
-fn fewest<'a>(
+fn of_fewer<'a>(
     halved: Result<HexPlan<'a>, HexRefineError>,
     thirds: Result<HexPlan<'a>, HexRefineError>,
 ) -> Result<HexPlan<'a>, HexRefineError> {

@@ -44,6 +44,7 @@ pub(super) fn attempt(
     let faces = if next.is_inside { None } else { Some(local.faces(monitor)?) };
     let has_none = |faces: &HexFaces| next.mesh.materials.is_empty() && local.is_inside(faces);
     let options = smoothing(method, faces.as_ref().is_none_or(has_none));
+    let faces = faces.filter(|_| !next.mesh.has_free_boundary);
     let mut tangled = local.relax(&next, faces, surface, &options, monitor)?;
     local.write_back(&mut next.mesh.positions);
     let mut smoothed = local.hex_ids;
@@ -52,7 +53,7 @@ pub(super) fn attempt(
             break;
         }
         let mut local = Local::beside(&next, &tangled, rings, monitor)?;
-        let faces = Some(local.faces(monitor)?);
+        let faces = local.kept_faces(&next.mesh, monitor)?;
         tangled = local.relax(&next, faces, surface, &OptimizeOptions::default(), monitor)?;
         local.write_back(&mut next.mesh.positions);
         smoothed.extend(local.hex_ids);

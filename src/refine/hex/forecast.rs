@@ -18,6 +18,7 @@ use serde::Serialize;
 use super::heritage::Heritage;
 use super::interface::Interface;
 use super::options::Method;
+use super::part::Part;
 use super::pillow::can_be_separated;
 use super::stage::StageError;
 use super::trees::TreeLevel;
@@ -80,18 +81,31 @@ pub(super) fn foresee(
     if refined == level.elements.len() {
         return Ok(StageForecast { refined, hexes: (children - 1) * refined, ..Default::default() });
     }
-    let interface = Interface::new(positions.len(), level.elements, level.is_refined, monitor)?;
-    let mut interface = heritage.within(interface);
+    let whole = heritage.with(positions, level.elements);
+    let part = Part::around(whole, level.refined, monitor)?;
+    let flags = part.as_ref().map(|part| part.flags(level.is_refined));
+    let looked_at = part.as_ref().map_or(whole, |part| part.mesh.whole());
+    let is_refined = flags.as_deref().unwrap_or(level.is_refined);
+    let mut interface = Interface::new(looked_at, is_refined, monitor)?;
     let faces = interface.faces(monitor)?.len();
     let (transition, replaced) = match method {
         Method::One => layer_cells(&interface),
         Method::Two | Method::Auto | Method::Three => {
-            can_be_separated(positions, &mut interface, monitor)?;
+            can_be_separated(looked_at.positions, &mut interface, monitor)
+                .map_err(|error| as_whole(error, part.as_ref()))?;
             (if method == Method::Three { 13 } else { 7 } * faces, 0)
         }
     };
     let hexes = (children - 1) * refined + transition - replaced;
     Ok(StageForecast { refined, interface_faces: faces, transition, hexes })
+}
+
+/// Gives the hexes of an error their numbers in the whole.
+fn as_whole(mut error: StageError, part: Option<&Part>) -> StageError {
+    if let (StageError::Conflict(hexes), Some(part)) = (&mut error, part) {
+        part.number_as_whole(hexes);
+    }
+    error
 }
 
 /// The cells of Method I's layer, and the coarse elements in whose place they are.

@@ -48,15 +48,6 @@ impl<'a> Grouping<'a> {
         Ok(Self { hexes, faces, sides, uses, is_regular })
     }
 
-    /// The hexes that share a node with one of these, or are one, ascending.
-    pub(super) fn around(&self, hexes: &[u32]) -> Vec<u32> {
-        let mut is_near = vec![false; self.hexes.len()];
-        for node in hexes.iter().flat_map(|&hex| self.hexes[hex as usize]) {
-            self.hexes_at(node).for_each(|(hex, _)| is_near[hex] = true);
-        }
-        (0..is_near.len() as u32).filter(|&hex| is_near[hex as usize]).collect()
-    }
-
     /// The block of each hex: blocks have the `wanted` ones of the refined hexes, as far as these can be in any, with few
     /// others. Hexes that are in none are blocks of their own.
     ///

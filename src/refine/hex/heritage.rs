@@ -1,11 +1,12 @@
 //! What the elements of a level of the trees have of the input: the groups of faces and the materials, which a stage of the
 //! mesh has too.
 
-use super::interface::Interface;
 use super::labels::{self, Label};
+use super::part::Whole;
 use super::sheets::materials_of;
 use super::trees::TreeLevel;
-use crate::mesh::HexMesh;
+use crate::geometry::Point;
+use crate::mesh::{HexMesh, NodeId};
 use crate::template::hex::{SPLIT, THIRDS, Template};
 use crate::{Cancelled, Monitor};
 
@@ -18,15 +19,21 @@ pub(super) struct Heritage {
     root: Vec<u32>,
     /// The material of each of the input's hexes; empty if there is one.
     materials: Vec<u32>,
+    /// See [`StageMesh::has_free_boundary`](super::stage::StageMesh::has_free_boundary).
+    has_free_boundary: bool,
 }
 
 impl Heritage {
     /// Of level 0.
-    pub(super) fn of_input(input: &HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+    pub(super) fn of_input(
+        input: &HexMesh,
+        has_free_boundary: bool,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let labels = labels::of_mesh(input);
         let materials = materials_of(input, &labels, monitor)?;
         let root = (0..materials.len() as u32).collect();
-        Ok(Self { labels, root, materials })
+        Ok(Self { labels, root, materials, has_free_boundary })
     }
 
     /// Of the children of `level`, whose own this is.
@@ -39,12 +46,13 @@ impl Heritage {
             level.refined.iter().flat_map(of_family).collect()
         };
         let labels = labels_of_children(&self.labels, level, template);
-        Self { labels, root, materials: self.materials.clone() }
+        Self { labels, root, materials: self.materials.clone(), ..*self }
     }
 
-    /// The interface within the level.
-    pub(super) fn within<'a>(&'a self, interface: Interface<'a>) -> Interface<'a> {
-        interface.with(&self.labels, &self.root, &self.materials)
+    /// The elements of the level with it.
+    pub(super) fn with<'a>(&'a self, positions: &'a [Point], hexes: &'a [[NodeId; 8]]) -> Whole<'a> {
+        let Self { labels, root, materials, has_free_boundary } = self;
+        Whole { positions, hexes, labels, root, materials, has_free_boundary: *has_free_boundary }
     }
 }
 

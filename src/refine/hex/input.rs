@@ -49,8 +49,9 @@ pub(super) fn oriented(input: &HexMesh, monitor: &dyn Monitor) -> Result<(HexMes
     Ok((mesh, turned))
 }
 
-/// The same of a mesh that was made here: it conforms, its hexes are turned the right way, and all of its nodes are used.
-pub(super) fn conforming(input: &HexMesh, monitor: &dyn Monitor) -> Result<HexMesh, HexRefineError> {
+/// Refuses what cannot be refined of the meshes that were made here: they conform, their hexes are turned the right way, and all
+/// of their nodes are used.
+pub(super) fn refuse_unfit(input: &HexMesh, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
     debug_assert_eq!(check_hexes_within(input, monitor)?, [], "it conforms");
     if input.hexes.is_empty() {
         return Err(HexRefineError::NoHexes);
@@ -59,7 +60,7 @@ pub(super) fn conforming(input: &HexMesh, monitor: &dyn Monitor) -> Result<HexMe
     refuse_extent(input, monitor)?;
     refuse_doubtful(input, monitor)?;
     monitor.checkpoint(INPUT, 1.0)?;
-    Ok(input.clone())
+    Ok(())
 }
 
 /// Refuses hexes that are not certainly positive inside.

@@ -2,6 +2,7 @@
 
 use super::blocks::in_blocks;
 use super::labels::{Label, group_of, label_of};
+use super::part::Whole;
 use super::skeleton::{Stars, one_way};
 use crate::mesh::NodeId;
 use crate::mesh::numbering::hex::FACES_AT;
@@ -18,6 +19,8 @@ pub(super) struct Interface<'a> {
     /// The input hex of each hex, and the material of each of these; empty if there is one material.
     root: &'a [u32],
     pub(super) materials: &'a [u32],
+    /// May nodes leave the boundary? Then it is as though there were none.
+    pub(super) has_free_boundary: bool,
     /// Of the faces between refined and coarse hexes of different materials those that the coarse side keeps: their
     /// refined sides, ascending.
     pub(super) kept_by_coarse: Vec<Side>,
@@ -37,16 +40,17 @@ const NONE: u32 = u32::MAX;
 const BATCH: usize = 1 << 20;
 
 impl<'a> Interface<'a> {
-    /// The interface of the set `refined` in a mesh of `node_count` nodes.
+    /// The interface of the set `refined` of the hexes.
     ///
     /// # Errors
     /// If the monitor stops it.
     pub(super) fn new(
-        node_count: usize,
-        hexes: &'a [[NodeId; 8]],
+        whole: Whole<'a>,
         refined: &'a [bool],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
+        let Whole { positions, hexes, labels, root, materials, has_free_boundary } = whole;
+        let node_count = positions.len();
         // For each node whether a coarse hex has it, then whether a refined one does.
         let mut sides = vec![false; 2 * node_count];
         for batch in hexes.chunks(BATCH).zip(refined.chunks(BATCH)) {
@@ -67,14 +71,20 @@ impl<'a> Interface<'a> {
         let at = |node: NodeId| if place[node.index()] == NONE { last } else { NodeId(place[node.index()]) };
         let stars = Stars::new(nodes.len() + 1, shell.len(), |k| hexes[shell[k] as usize].map(at));
         monitor.proceed()?;
-        let (labels, root, materials): (&[Label], &[u32], &[u32]) = (&[], &[], &[]);
         let kept_by_coarse = Vec::new();
-        Ok(Self { hexes, refined, labels, root, materials, kept_by_coarse, nodes, place, shell, stars })
-    }
-
-    /// The interface with the labels of its hexes' faces, the input hexes that they are of, and the materials of these.
-    pub(super) fn with(self, labels: &'a [Label], root: &'a [u32], materials: &'a [u32]) -> Self {
-        Self { labels, root, materials, ..self }
+        Ok(Self {
+            hexes,
+            refined,
+            labels,
+            root,
+            materials,
+            has_free_boundary,
+            kept_by_coarse,
+            nodes,
+            place,
+            shell,
+            stars,
+        })
     }
 
     /// The material of a hex.
@@ -87,6 +97,7 @@ impl<'a> Interface<'a> {
         let (hex, side) = face.first;
         let id = star.hexes[hex].0;
         match face.second {
+            None if self.has_free_boundary => None,
             None => {
                 let label = label_of(self.labels, 6 * id + Side::from(side));
                 Some(FaceKind::boundary(label, self.material(id)))

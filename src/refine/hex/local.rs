@@ -105,6 +105,15 @@ impl Local {
         HexFaces::within(self.positions.len(), &self.hexes, monitor)
     }
 
+    /// The same, unless nodes need not be kept on any: a mesh with a free boundary is of one material.
+    pub(super) fn kept_faces(
+        &self,
+        mesh: &StageMesh,
+        monitor: &dyn Monitor,
+    ) -> Result<Option<HexFaces>, Cancelled> {
+        if mesh.has_free_boundary { Ok(None) } else { self.faces(monitor).map(Some) }
+    }
+
     /// Where the nodes may go. Only what is said of movable ones counts: a boundary face with such a node is known for
     /// one, and one between materials too, since all hexes there are at hand.
     pub(super) fn constraints<'a>(

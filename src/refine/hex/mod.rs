@@ -69,6 +69,8 @@ mod sheets;
 mod shift;
 mod skeleton;
 mod stage;
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests;
 mod thirds;
 mod transition;
 mod trees;

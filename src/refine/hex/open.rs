@@ -52,6 +52,7 @@ impl Monitor for Opening<'_> {
 mod tests {
     use super::super::interface::Interface;
     use super::super::pillow::pillow;
+    use super::super::stage::StageMesh;
     use super::*;
     use crate::Silent;
     use crate::geometry::{Aabb, Point};
@@ -61,7 +62,8 @@ mod tests {
     fn pillow_around(mesh: &HexMesh, is_in: impl Fn(Point) -> bool) -> Pillow {
         let middle = |hex: &[NodeId; 8]| hex.iter().map(|n| mesh.positions[n.index()]).sum::<Point>() / 8.0;
         let refined: Vec<bool> = mesh.hexes.iter().map(|hex| is_in(middle(hex))).collect();
-        let mut interface = Interface::new(mesh.positions.len(), &mesh.hexes, &refined, &Silent).unwrap();
+        let mesh = StageMesh::of_mesh(mesh, &Silent).unwrap();
+        let mut interface = Interface::new(mesh.whole(), &refined, &Silent).unwrap();
         pillow(&mesh.positions, &mut interface, &Silent).unwrap()
     }
 

@@ -15,6 +15,10 @@
 //!    gets a copy, moved into the region (`shift`). Where that would fold the layer (`folds`), more must be refined.
 //! 4. Give the hexes their copies, and make a hex at each face of the interface.
 //!
+//! Copies of nodes on the boundary stay on it, unless nobody keeps it
+//! ([`StageMesh::has_free_boundary`](super::stage::StageMesh::has_free_boundary)): then they move into their regions like any
+//! others, and nothing more has to be refined for the boundary's sake.
+//!
 //! **Departure from the paper.** It shifts each node by half its shortest edge along the mean normal of the faces,
 //! which inverts hexes at concave corners; here it is [`THICKNESS`] of the shortest edge, towards the region.
 

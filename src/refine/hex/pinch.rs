@@ -10,7 +10,7 @@
 //!   C | R          C   \ R   or                 C | \ R   (the two R meet at the edge)
 //! ```
 //!
-//! On the boundary the outside counts as a hex of the joined side, whose region then keeps the node.
+//! On the boundary the outside counts as a hex of the joined side, whose region then keeps the node, unless the boundary is free.
 //!
 //! At both ends of the edge the separated runs must lie in different regions of the node's star, or the pillow's
 //! faces would meet twice. The coarse side is joined unless that fails there, or folds the layer on the boundary
@@ -34,7 +34,7 @@ pub(super) struct Pinch {
     ends: [NodeId; 2],
     /// True if the refined runs are joined through it, false if the coarse ones are.
     pub(super) joins_refined: bool,
-    /// Has it faces of the boundary?
+    /// Has it faces of a boundary that is kept?
     pub(super) on_boundary: bool,
 }
 
@@ -51,7 +51,7 @@ impl Pinches {
     pub(super) fn find(interface: &Interface, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let at = |star: &mut Star, place: usize, found: &mut Vec<Pinch>| {
             star.load(interface, place);
-            found.extend(pinches_above(star));
+            found.extend(pinches_above(star, interface.has_free_boundary));
         };
         let edges = in_blocks(interface.nodes.len(), monitor, Star::default, at)?;
         let mut at_node = vec![false; interface.nodes.len()];
@@ -179,7 +179,7 @@ fn places(interface: &Interface, edge: &Pinch) -> [usize; 2] {
 }
 
 /// The pinched edges from a star's node to greater ones, by their other ends.
-fn pinches_above(star: &Star) -> Vec<Pinch> {
+fn pinches_above(star: &Star, has_free_boundary: bool) -> Vec<Pinch> {
     let ends = star.faces.iter().filter(|face| star.is_interface(face)).flat_map(|f| [f.rest[0], f.rest[2]]);
     let mut ends: Vec<NodeId> = ends.filter(|&end| end > star.node).collect();
     ends.sort_unstable();
@@ -187,8 +187,9 @@ fn pinches_above(star: &Star) -> Vec<Pinch> {
     let pinch = |end: NodeId| {
         let faces = || star.faces.iter().filter(move |face| face.has_edge(end));
         let interface_faces = faces().filter(|face| star.is_interface(face)).count();
-        let on_boundary = faces().any(|face| face.second.is_none());
-        let is_pinched = interface_faces > if on_boundary { 1 } else { 2 };
+        let is_at_boundary = faces().any(|face| face.second.is_none());
+        let is_pinched = interface_faces > if is_at_boundary { 1 } else { 2 };
+        let on_boundary = is_at_boundary && !has_free_boundary;
         is_pinched.then_some(Pinch { ends: [star.node, end], joins_refined: false, on_boundary })
     };
     ends.into_iter().filter_map(pinch).collect()

@@ -66,10 +66,12 @@ impl HexPlan<'_> {
     /// If the transitions bring the mesh over the limit of hexes or cannot be untangled, or the monitor stops it.
     pub fn carry_out(mut self, monitor: &dyn Monitor) -> Result<RefinedHexes, HexRefineError> {
         let monitor = &Rising { inner: monitor, told: Mutex::default() };
-        let mut made = Made::of_input(&self.input, monitor)?;
-        made.take_octants(&self);
+        let mut made = Made::before(&self, monitor)?;
         if self.outline.is_some() {
-            let surface = boundary_surface(&self.input, monitor)?;
+            let surface = match self.has_free_boundary {
+                true => BoundarySurface::default(),
+                false => boundary_surface(&self.input, monitor)?,
+            };
             let mut restarts = 0;
             while let Some(attempt) = self.next_stage(&made, &surface, monitor)? {
                 let (hexes, tangled) = match attempt {
@@ -93,8 +95,7 @@ impl HexPlan<'_> {
                 }
                 *(if tangled.is_some() { &mut self.added.repairs } else { &mut self.added.conflicts }) +=
                     more.elements;
-                made.back_to(more.coarsest, &self.input, monitor)?;
-                made.take_octants(&self);
+                made.back_to(more.coarsest, &self, monitor)?;
             }
         }
         let Self { input, added, decided, .. } = self;
@@ -148,16 +149,14 @@ struct Made {
 }
 
 impl Made {
-    fn of_input(input: &HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let mesh = StageMesh::of_mesh(input, monitor)?;
-        Ok(Self { mesh, number: 0, reports: Vec::new(), kept: Vec::new() })
-    }
-
-    /// Before the first stage, takes from the plan how the hexes of the input stand in blocks, if they do.
-    fn take_octants(&mut self, plan: &HexPlan) {
-        if let Some(blocks) = plan.blocks.filter(|_| self.number == 0) {
-            self.mesh.octant.clone_from(&blocks.octant);
+    /// Nothing but the plan's input; its hexes know how they stand in blocks, if they do.
+    fn before(plan: &HexPlan, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let mut mesh = StageMesh::of_mesh(&plan.input, monitor)?;
+        mesh.has_free_boundary = plan.has_free_boundary;
+        if let Some(blocks) = plan.blocks {
+            mesh.octant.clone_from(&blocks.octant);
         }
+        Ok(Self { mesh, number: 0, reports: Vec::new(), kept: Vec::new() })
     }
 
     fn push(&mut self, next: StageResult) {
@@ -170,11 +169,11 @@ impl Made {
     }
 
     /// Goes back to the mesh before the stage of level `number`, or to an earlier one.
-    fn back_to(&mut self, number: usize, input: &HexMesh, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+    fn back_to(&mut self, number: usize, plan: &HexPlan, monitor: &dyn Monitor) -> Result<(), Cancelled> {
         while self.number > number {
             match self.kept.pop() {
                 Some((kept, mesh)) => (self.number, self.mesh) = (kept, mesh),
-                None => *self = Self::of_input(input, monitor)?,
+                None => *self = Self::before(plan, monitor)?,
             }
         }
         self.reports.truncate(self.number);

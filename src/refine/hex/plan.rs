@@ -26,9 +26,6 @@ use crate::{Cancelled, Monitor, Stage};
 
 const CLOSE: Stage = Stage("close");
 
-/// A part of a mesh is looked at alone if it has no more than the mesh's hexes over this.
-const FEW: usize = 8;
-
 /// Why conflicts are refined.
 pub(super) const INSEPARABLE: &str = "where the interface cannot be separated";
 
@@ -38,8 +35,10 @@ pub struct HexPlan<'a> {
     pub(super) options: &'a HexOptions,
     /// The blocks of the input's hexes, if these stand in blocks.
     pub(super) blocks: Option<&'a HexBlocks>,
+    /// See [`StageMesh::has_free_boundary`].
+    pub(super) has_free_boundary: bool,
     /// The input, oriented, without unused nodes.
-    pub(super) input: HexMesh,
+    pub(super) input: Cow<'a, HexMesh>,
     /// None if nothing is to be refined.
     pub(super) outline: Option<Outline>,
     pub(super) added: Added,
@@ -90,17 +89,17 @@ impl<'a> HexPlan<'a> {
         options: &'a HexOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
-        Self::decided(HexRefinement::new(input, options, monitor)?, None, monitor)
+        HexRefinement::new(input, options, monitor)?.decided(monitor)?.plan(monitor)
     }
 
-    /// As [`HexPlan::new`], for a mesh that was made here: it conforms, its hexes are turned the right way, and all of its
-    /// nodes are used, so that less has to be asked of it. Where its hexes stand in blocks, whole ones are refined: then hexes
-    /// away from them can stay as they are.
+    /// As [`HexPlan::new`], for a mesh that was made here to be cut: it conforms, its hexes are turned the right way, and all of
+    /// its nodes are used, so that less has to be asked of it; and nodes of the transitions may leave its boundary. Where its
+    /// hexes stand in blocks, whole ones are refined: then hexes away from them can stay as they are.
     ///
     /// # Panics
     /// If there are blocks, and not one block and one octant for each hex.
     pub(crate) fn of_conforming(
-        input: &HexMesh,
+        input: &'a HexMesh,
         blocks: Option<&'a HexBlocks>,
         options: &'a HexOptions,
         monitor: &dyn Monitor,
@@ -109,24 +108,36 @@ impl<'a> HexPlan<'a> {
             let count = input.hexes.len();
             assert_eq!([block.len(), octant.len()], [count; 2], "a block and an octant for each hex");
         }
-        Self::decided(HexRefinement::of_conforming(input, options, monitor)?, blocks, monitor)
+        let refinement = HexRefinement::of_conforming(input, options, monitor)?.decided(monitor)?;
+        let (plan, trees) = refinement.unsettled(monitor)?;
+        Self { blocks, has_free_boundary: true, ..plan }.settled(trees, monitor)
     }
 
-    fn decided(
-        mut refinement: HexRefinement<'a>,
-        blocks: Option<&'a HexBlocks>,
+    /// How many hexes the trees have that refine what the options ask for and nothing else: no mesh of theirs has fewer. Of a mesh
+    /// that was made here.
+    pub(crate) fn fewest_hexes(
+        input: &HexMesh,
+        options: &HexOptions,
         monitor: &dyn Monitor,
-    ) -> Result<Self, HexRefineError> {
-        while refinement.advance(None, monitor)? {}
-        let (plan, trees) = refinement.unsettled(monitor)?;
-        Self { blocks, ..plan }.settled(trees, monitor)
+    ) -> Result<usize, HexRefineError> {
+        let refinement = HexRefinement::of_conforming(input, options, monitor)?.decided(monitor)?;
+        Ok(refinement.leaf_count())
     }
 
     /// Nothing to be refined yet.
-    pub(super) fn of_input(options: &'a HexOptions, input: HexMesh, decided: Decided) -> Self {
+    pub(super) fn of_input(options: &'a HexOptions, input: Cow<'a, HexMesh>, decided: Decided) -> Self {
         let forecast = HexForecast::new(input.hexes.len(), Vec::new());
         let added = Added { base: decided.base, ..Added::default() };
-        Self { options, blocks: None, input, outline: None, added, decided, forecast }
+        Self {
+            options,
+            blocks: None,
+            has_free_boundary: false,
+            input,
+            outline: None,
+            added,
+            decided,
+            forecast,
+        }
     }
 
     /// With these trees over the input, closed.
@@ -181,7 +192,7 @@ impl<'a> HexPlan<'a> {
     /// Steps 2 to 4.
     fn settle(&mut self, mut trees: Trees, monitor: &dyn Monitor) -> Result<(), HexRefineError> {
         monitor.checkpoint(CLOSE, 0.0)?;
-        let heritage = Heritage::of_input(&self.input, monitor)?;
+        let heritage = Heritage::of_input(&self.input, self.has_free_boundary, monitor)?;
         let stages = loop {
             self.close(&mut trees, monitor)?;
             self.group(&mut trees, monitor)?;
@@ -245,10 +256,11 @@ impl<'a> HexPlan<'a> {
         {
             return Ok(());
         }
-        // A copy of the input would be a good part of what all of this takes.
-        let mesh = StageMesh::taken_from(&mut self.input, monitor)?;
+        // A second copy of the input would be a good part of what all of this takes.
+        let mut mesh = StageMesh::taken_from(self.input.to_mut(), monitor)?;
+        mesh.has_free_boundary = self.has_free_boundary;
         let grouped = self.group_in(&mesh, trees, monitor);
-        mesh.give_back(&mut self.input);
+        mesh.give_back(self.input.to_mut());
         grouped
     }
 
@@ -258,7 +270,7 @@ impl<'a> HexPlan<'a> {
         trees: &mut Trees,
         monitor: &dyn Monitor,
     ) -> Result<(), HexRefineError> {
-        let mut joined = joining(mesh, trees.level(0).is_refined, monitor)?;
+        let mut joined = joined_around(mesh, trees.level(0), monitor)?;
         if matches!(joined, Joining::Possible) {
             return Ok(());
         }
@@ -288,7 +300,7 @@ impl<'a> HexPlan<'a> {
                     self.refine_unasked(trees, &rest, monitor)?;
                 }
             }
-            joined = joined_around(mesh, &grouping, trees.level(0), monitor)?;
+            joined = joined_around(mesh, trees.level(0), monitor)?;
         }
     }
 
@@ -374,18 +386,11 @@ impl<'a> HexPlan<'a> {
     }
 }
 
-/// As [`joining`]. Where few hexes are at nodes of the refined ones it looks at these alone, which tell all.
-fn joined_around(
-    mesh: &StageMesh,
-    grouping: &Grouping<'_>,
-    base: TreeLevel,
-    monitor: &dyn Monitor,
-) -> Result<Joining, Cancelled> {
-    let around = grouping.around(base.refined);
-    if around.len() > mesh.hexes.len() / FEW {
+/// As [`joining`], with the part around the refined hexes alone where these are few.
+fn joined_around(mesh: &StageMesh, base: TreeLevel, monitor: &dyn Monitor) -> Result<Joining, Cancelled> {
+    let Some(part) = Part::around(mesh.whole(), base.refined, monitor)? else {
         return joining(mesh, base.is_refined, monitor);
-    }
-    let part = Part::of(mesh, around, monitor)?;
+    };
     let mut joined = joining(&part.mesh, &part.flags(base.is_refined), monitor)?;
     if let Joining::Conflict(hexes) | Joining::Ungrouped(hexes) = &mut joined {
         part.number_as_whole(hexes);

@@ -39,8 +39,8 @@ pub(super) fn mend_poor(
     }
     let options = OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 16, ..OptimizeOptions::default() };
     let mut local = Local::beside(stage, &poor, RINGS, monitor)?;
-    let faces = local.faces(monitor)?;
-    if local.relax(stage, Some(faces), surface, &options, monitor)?.is_empty() {
+    let faces = local.kept_faces(&stage.mesh, monitor)?;
+    if local.relax(stage, faces, surface, &options, monitor)?.is_empty() {
         local.write_back(&mut stage.mesh.positions);
     }
     Ok(())

@@ -1,6 +1,8 @@
 //! What is to be refined, decided level by level, by the options and by a caller's size function.
 
-use super::input::{coincident_nodes, conforming, longest_edge, longest_edge_of, oriented};
+use std::borrow::Cow;
+
+use super::input::{coincident_nodes, longest_edge, longest_edge_of, oriented, refuse_unfit};
 use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size, validate};
 use super::plan::{Decided, HexPlan};
 use super::trees::Trees;
@@ -41,7 +43,7 @@ const REFINE: Stage = Stage("refine");
 pub struct HexRefinement<'a> {
     options: &'a HexOptions,
     /// Oriented, without unused nodes.
-    input: HexMesh,
+    input: Cow<'a, HexMesh>,
     /// What the options want finer.
     field: SizeField,
     /// None as long as nothing is refined.
@@ -68,7 +70,7 @@ impl<'a> HexRefinement<'a> {
     ) -> Result<Self, HexRefineError> {
         validate(options)?;
         let (input, turned) = oriented(input, monitor)?;
-        Self::of_oriented(input, turned, options, monitor)
+        Self::of_oriented(Cow::Owned(input), turned, options, monitor)
     }
 
     /// The same for a mesh that was made here: it conforms, its hexes are turned the right way, and all of its nodes are
@@ -77,16 +79,17 @@ impl<'a> HexRefinement<'a> {
     /// # Errors
     /// If a hex is not positive, an option is out of range, or the monitor stops it.
     pub(super) fn of_conforming(
-        input: &HexMesh,
+        input: &'a HexMesh,
         options: &'a HexOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
         validate(options)?;
-        Self::of_oriented(conforming(input, monitor)?, 0, options, monitor)
+        refuse_unfit(input, monitor)?;
+        Self::of_oriented(Cow::Borrowed(input), 0, options, monitor)
     }
 
     fn of_oriented(
-        input: HexMesh,
+        input: Cow<'a, HexMesh>,
         turned: usize,
         options: &'a HexOptions,
         monitor: &dyn Monitor,
@@ -160,7 +163,7 @@ impl<'a> HexRefinement<'a> {
     /// Refuses to divide the marked elements of the deepest level, and those of their descendants that are sure to be wanted
     /// finer too, beyond the limit of hexes or the digits of coordinates.
     fn may_divide(&mut self, marked: &[u32], monitor: &dyn Monitor) -> Result<(), HexRefineError> {
-        let (options, (number, count)) = (self.options, self.last());
+        let (options, (number, _)) = (self.options, self.last());
         let parts: u8 = if options.method == Method::Three { 3 } else { 2 };
         let longest = self.longest / f64::from(parts).powi(i32::from(number) + 1);
         if !self.extent.has_digits_for(longest) {
@@ -171,7 +174,7 @@ impl<'a> HexRefinement<'a> {
             });
         }
         let sure = self.sure_levels(marked, monitor)?;
-        let before = self.trees.as_ref().map_or(count, Trees::leaf_count) as u64;
+        let before = self.leaf_count() as u64;
         let mut of_levels = [0_u64; HexOptions::DEEPEST_LEVEL as usize + 1];
         sure.into_iter().for_each(|levels| of_levels[usize::from(levels)] += 1);
         let children = u64::from(parts).pow(3);
@@ -218,6 +221,12 @@ impl<'a> HexRefinement<'a> {
         })
     }
 
+    /// Refines all that the options ask for.
+    pub(super) fn decided(mut self, monitor: &dyn Monitor) -> Result<Self, HexRefineError> {
+        while self.advance(None, monitor)? {}
+        Ok(self)
+    }
+
     /// Refines what the rules of conforming refinement ask for, besides; says what will be made.
     ///
     /// # Errors
@@ -248,6 +257,11 @@ impl<'a> HexRefinement<'a> {
     /// See [`HexRefineError`].
     pub fn finish(self, monitor: &dyn Monitor) -> Result<RefinedHexes, HexRefineError> {
         self.plan(monitor)?.carry_out(monitor)
+    }
+
+    /// How many elements are not refined so far.
+    pub(super) fn leaf_count(&self) -> usize {
+        self.trees.as_ref().map_or(self.input.hexes.len(), Trees::leaf_count)
     }
 
     /// The number of the deepest level, and how many elements it has.

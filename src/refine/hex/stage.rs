@@ -10,6 +10,7 @@ use super::labels::{self, Labelled};
 use super::layers::layers;
 use super::open::open;
 use super::options::Method;
+use super::part::Whole;
 use super::pillow::{LayerHex, Pillow, pillow};
 use super::quarters::{Quarter, place_quarters};
 use super::sheets::materials_of;
@@ -51,17 +52,16 @@ pub struct StageMesh {
     /// The material of each input hex, by its set of tags and by the groups of faces between hexes; empty if all are of
     /// one. Faces between hexes of different materials stay where they are, like the boundary.
     pub materials: Vec<u32>,
+    /// May nodes leave the boundary, since nobody keeps it?
+    pub has_free_boundary: bool,
 }
 
 impl StageMesh {
-    /// The interface of a set of its hexes.
-    fn interface<'a>(
-        &'a self,
-        refined: &'a [bool],
-        monitor: &dyn Monitor,
-    ) -> Result<Interface<'a>, Cancelled> {
-        let interface = Interface::new(self.positions.len(), &self.hexes, refined, monitor)?;
-        Ok(interface.with(&self.labels, &self.root, &self.materials))
+    /// The hexes, with what they have of the input.
+    pub(super) fn whole(&self) -> Whole<'_> {
+        let Self { positions, hexes, labels, root, materials, has_free_boundary, .. } = self;
+        let has_free_boundary = *has_free_boundary;
+        Whole { positions, hexes, labels, root, materials, has_free_boundary }
     }
 
     /// The mesh before the first stage: the input's hexes, at level 0.
@@ -75,6 +75,7 @@ impl StageMesh {
             element: (0..count as u32).collect(),
             labels: Vec::new(),
             materials: Vec::new(),
+            has_free_boundary: false,
             hexes,
         }
     }
@@ -197,7 +198,7 @@ fn stage_of(
     monitor: &dyn Monitor,
 ) -> Result<StageResult, StageError> {
     assert_eq!(refined.len(), mesh.hexes.len(), "one entry a hex");
-    let mut interface = mesh.interface(refined, monitor)?;
+    let mut interface = Interface::new(mesh.whole(), refined, monitor)?;
     match method {
         Method::One => {
             let mut positions = mesh.positions.clone();
@@ -251,7 +252,7 @@ pub(super) fn joining(
     refined: &[bool],
     monitor: &dyn Monitor,
 ) -> Result<Joining, Cancelled> {
-    let mut interface = mesh.interface(refined, monitor)?;
+    let mut interface = Interface::new(mesh.whole(), refined, monitor)?;
     match pillow(&mesh.positions, &mut interface, monitor) {
         Ok(pillow) => Ok(quarters(&pillow, mesh).map_or_else(Joining::Ungrouped, |_| Joining::Possible)),
         Err(StageError::Conflict(more)) => Ok(Joining::Conflict(more)),

@@ -119,6 +119,7 @@ pub(super) fn assemble(
         element: parallel::try_collect(count, monitor, element)?,
         labels,
         materials: before.materials.clone(),
+        has_free_boundary: before.has_free_boundary,
         positions,
         hexes: cells,
     };
