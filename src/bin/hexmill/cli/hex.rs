@@ -21,8 +21,8 @@ use super::progress::Progress;
 use super::report::{OptionsReport, Report, SolidOptions};
 use super::words::counted;
 
-/// Peak memory of the command in bytes a hex, about: models of 44 to 62 thousand hexes took 570 to 1,200, and 1,600 where
-/// the solid itself is the most of it.
+/// Peak memory of the command in bytes a hex, about: models of 44 to 62 thousand hexes took 520 to 890, and 1,470 where
+/// the solid itself is a good part of it.
 const BYTES_PER_HEX: u64 = 1000;
 
 /// Reads a closed surface, fills it with hexes, writes and reports.
