@@ -395,7 +395,7 @@ mod tests {
         assert!(clearly.distance > TOO_FAR * near && clearly.failures > 0);
     }
 
-    /// A bent plate with dimples that no cells of a sweep show.
+    /// A bent plate with a dimple that no cells of a sweep show.
     #[test]
     fn a_sweep_is_refined_only_where_it_is_far_off_unless_a_distance_is_asked_for() {
         let missed = |depth: f64, max_distance: Option<f64>| {

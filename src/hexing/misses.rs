@@ -10,7 +10,7 @@ use crate::geometry::{Aabb, BoxIndex, Point};
 /// the cells are.
 const NEAR: f64 = 0.003;
 
-/// How near mesh and solid are to be to each other, or a little more (`attempt`), before smaller cells are tried: beyond that
+/// How near mesh and solid are to be to each other, or somewhat more (`attempt`), before smaller cells are tried: beyond that
 /// a feature is not shown that these may show.
 pub(super) fn tolerance(site: &Site<'_>, kind: Background) -> f64 {
     let of_edge = site.taste.near * site.options.edge_length;

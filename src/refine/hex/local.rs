@@ -105,7 +105,7 @@ impl Local {
         HexFaces::within(self.positions.len(), &self.hexes, monitor)
     }
 
-    /// The same, unless nodes need not be kept on any: a mesh with a free boundary is of one material.
+    /// The faces of the hexes, as nodes are kept on some; none where the boundary is free, since such a mesh is of one material.
     pub(super) fn kept_faces(
         &self,
         mesh: &StageMesh,
