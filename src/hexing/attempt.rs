@@ -5,14 +5,14 @@ use super::core::{Core, CoreOptions, CoreReport, core};
 use super::correspondence::{Correspondence, correspond};
 use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, NEARER, Part, Survey, fit, quality};
 use super::ground::{Plan, Site};
-use super::merit::{Bar, FAIR};
+use super::merit::{Bar, FAIR, loses_some};
 use super::misses::{FineCells, misses, tolerance};
 use super::options::HexingError;
 use super::report::{AttemptReport, FeatureReport, FitCounts, MeshedReport, SheetCounts};
 use super::separate::separate;
 use super::sheets::insert_sheets;
 use crate::geometry::Point;
-use crate::mesh::{Distances, HexMesh, MeshHash, Quads, Triangles, mesh_hash};
+use crate::mesh::{Distances, HexMesh, MeshHash, NodeId, Quads, Triangles, farthest_from_quads, mesh_hash};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
@@ -27,6 +27,10 @@ const TOO_FAR: f64 = 1.2;
 /// A sweep is refined only where they are farther from each other than so many times what is near: the cells that are cut for
 /// that are poorer than those of a grid, and the cells beside them.
 const TOO_FAR_FROM_SWEEP: f64 = 2.0;
+
+/// A solid is nowhere so many edges from a core that shows all of it: cells whose middle is within the solid are in it, and
+/// half the diagonal of a cube is .87 of its edge.
+const PART: f64 = 1.2;
 
 /// Fair cells are better than good ones have to be by this: rounding, and smoothing once more, do not make them bad.
 const SPARE: f64 = 0.01;
@@ -132,6 +136,7 @@ pub(super) fn draft(
     if is_behind(report.features.as_ref()) {
         return Ok(Err(report));
     }
+    report.lacks_part = loses_some(&report, site.taste) && lacks_part(&core.mesh, &on, site, monitor)?;
     Ok(Ok(Draft { kind: plan.kind, core, on, cells, report }))
 }
 
@@ -189,8 +194,10 @@ impl Draft {
             }
         }
         let (distance, mut failures) = seen.map_or_else(|| look(&meshed), Ok)?;
-        let may_stay = kind == Background::Swept && options.max_distance.is_none();
-        if may_stay && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near {
+        let may_stay = kind == Background::Swept && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
+        // Smaller cells elsewhere bring them no nearer where none may be smaller.
+        let is_finest = || cells.finest(std::iter::once(distance.farthest()))[0] >= site.finest(kind);
+        if options.max_distance.is_none() && (may_stay || is_finest()) {
             failures.retain(|failure| failure.missed != Missed::Far);
         }
         let came = &meshed.fitted.report;
@@ -223,6 +230,29 @@ fn best_core(
     Ok(if rank(&thin) < rank(&plain) { (thin, true) } else { (plain, false) })
 }
 
+/// Is some part of a solid that somebody drew so far from the core that cells are missing there, or too many? Where a distance
+/// is asked for that is not looked at: smaller cells are tried by what a mesh tells, as often as it takes.
+fn lacks_part(
+    core: &HexMesh,
+    on: &Correspondence,
+    site: &Site<'_>,
+    monitor: &dyn Monitor,
+) -> Result<bool, Cancelled> {
+    let (solid, edge) = (site.solid, site.options.edge_length);
+    if solid.is_free_form() || site.options.max_distance.is_some() {
+        return Ok(false);
+    }
+    let quads = quads_of(on);
+    let boundary = Quads { positions: &core.positions, quads: &quads };
+    let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
+    Ok(farthest_from_quads(surface, boundary, edge, monitor)? > PART * edge)
+}
+
+/// The boundary.
+fn quads_of(on: &Correspondence) -> Vec<[NodeId; 4]> {
+    on.faces.iter().map(|&(quad, _)| quad).collect()
+}
+
 /// Hexes of each level.
 fn levels_of(background: &OctreeMesh) -> Vec<usize> {
     let finest = background.level.iter().max().map_or(0, |&level| usize::from(level));
@@ -239,7 +269,7 @@ fn distances(
     limit: f64,
     monitor: &dyn Monitor,
 ) -> Result<(Distances, Vec<Point>), Cancelled> {
-    let quads: Vec<_> = on.faces.iter().map(|&(quad, _)| quad).collect();
+    let quads = quads_of(on);
     let boundary = Quads { positions: &mesh.positions, quads: &quads };
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
     Distances::with_samples_beyond(limit, boundary, surface, monitor)
@@ -393,6 +423,26 @@ mod tests {
         let [hardly, clearly] = [0.55, 0.73].map(|aside| fitted_with(edge_length, aside, None));
         assert!(near < hardly.distance && hardly.distance < TOO_FAR * near && hardly.failures == 0);
         assert!(clearly.distance > TOO_FAR * near && clearly.failures > 0);
+    }
+
+    #[test]
+    fn what_no_cells_may_be_smaller_for_is_not_missed_where_nobody_asked() {
+        let edge_length = 0.3;
+        let missed = |max_levels, max_distance| {
+            let background = Background::Grid;
+            let options = HexingOptions {
+                edge_length,
+                background,
+                max_levels,
+                max_distance,
+                ..HexingOptions::default()
+            };
+            let (.., failures) = first_attempt(&house(0.73).0, &options, &Silent);
+            failures.iter().filter(|failure| failure.missed == Missed::Far).count()
+        };
+        let asked = Some(0.06);
+        assert!(missed(1, None) > 0 && missed(0, asked) > 0);
+        assert_eq!(missed(0, None), 0);
     }
 
     /// A bent plate with a dimple that no cells of a sweep show.

@@ -2,14 +2,16 @@
 //!
 //! 1. The background of choice, as it is.
 //! 2. Where that missed something that somebody drew, or is too far from the solid, cells a level smaller there,
-//!    as often as the options allow, and as long as it helps. Of a core that is not of the solid's kind it is not always
+//!    as often as the options allow, and as long as it helps. Where nothing was missed but what was lost, they have to show
+//!    clearly more before they are fitted. Of a core that is not of the solid's kind it is not always
 //!    known where it differs: then thin walls, narrow gaps and short curves are refined. Where that would be many
 //!    cells, what was lost alone.
 //! 3. Where the best is a sweep that does not show some part of the solid, or whose cells are bad, a grid; one that is better
 //!    but does not show all is refined in its turn.
 //! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
-//!    octree, and 2 for that. What shows less than half before it is fitted is not fitted before that.
+//!    octree, and 2 for that. What shows less than half before it is fitted, or lacks some part of the solid, is not fitted
+//!    before that.
 //!
 //! A mesh that misses nothing but is too far from the solid is first brought nearer with cells that are fair instead of good
 //! (`attempt`), unless nobody asked for the distance and many of its cells are poor. Where it is so far that this hardly ever
@@ -141,10 +143,11 @@ impl Search<'_> {
         Ok(self.number() != before)
     }
 
-    /// Will an octree be tried, whatever comes of a fit, since the best draft shows too little?
+    /// Will an octree be tried, whatever comes of a fit, since the best draft shows too little, or lacks a part?
     fn octree_is_first(&self) -> bool {
         let may_be_octree = self.site.may_be_octree() && self.site.options.max_levels > 0;
-        may_be_octree && !self.has_tried(Background::Octree) && self.shows_little()
+        let lacks_part = self.best_report().is_some_and(|best| best.lacks_part);
+        may_be_octree && !self.has_tried(Background::Octree) && (self.shows_little() || lacks_part)
     }
 
     /// Tries an octree, with cells as small in details as there can be, and refines it if that is better.
@@ -380,6 +383,54 @@ mod tests {
         search.attempts.push(AttemptReport { background: Background::Octree, ..search.attempts[0].clone() });
         search.refine(options.max_hexes).unwrap();
         assert!(!search.waits() && search.is_good());
+    }
+
+    /// A block with a hole that is narrower than cells.
+    fn drilled(depth: i32) -> SolidModel {
+        solid(&voxels([12, 12, 12], |[x, y, z]| (x, y) != (6, 6) || z < 12 - depth))
+    }
+
+    #[test]
+    fn a_draft_that_lacks_a_part_waits_for_an_octree() {
+        let options = HexingOptions { edge_length: 3.0, ..HexingOptions::default() };
+        for (depth, lacks_part) in [(3, false), (6, true)] {
+            let solid = drilled(depth);
+            let site = Site::new(&solid, &options, &Silent).unwrap();
+            let mut search = Search::new(&site, &Silent);
+            search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
+            assert_eq!(search.attempts[0].lacks_part, lacks_part, "{depth}");
+            search.refine(100).unwrap();
+            assert_eq!(search.waits(), lacks_part, "{depth}");
+        }
+        let Body { report, .. } = mesh_body(&drilled(6), &options, &Silent).unwrap();
+        let kept = &report.attempts[report.kept.unwrap()];
+        assert!(!kept.lacks_part && distance(kept) < 0.5, "{}", distance(kept));
+    }
+
+    /// The same once more shows nothing more.
+    #[test]
+    fn of_drafts_that_lack_a_part_only_better_ones_wait() {
+        let options = HexingOptions { edge_length: 3.0, ..HexingOptions::default() };
+        let solid = drilled(6);
+        let site = Site::new(&solid, &options, &Silent).unwrap();
+        let mut search = Search::new(&site, &Silent);
+        for _ in 0..2 {
+            search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
+        }
+        assert_eq!((search.attempts.len(), search.waiting.len(), search.number()), (2, 1, Some(0)));
+        // A mesh that lacks none is not put off for it, be its cells good or not.
+        for (lacks_part, fitted) in [(false, false), (true, true)] {
+            let mut search = Search::new(&site, &Silent);
+            search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
+            search.fit_best().unwrap();
+            search.attempts[0].lacks_part = lacks_part;
+            search.attempts[0].mesh.as_mut().unwrap().worst = 0.1;
+            let report = AttemptReport { lacks_part: true, mesh: None, ..search.attempts[0].clone() };
+            search.attempts.push(report);
+            search.waiting.push(Waiting { number: 1, plan: site.plan(Background::Grid), draft: None });
+            search.settle().unwrap();
+            assert_eq!(search.attempts[1].mesh.is_some(), fitted);
+        }
     }
 
     #[test]

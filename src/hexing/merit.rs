@@ -65,7 +65,11 @@ const UNFAIR: f64 = 10.0;
 
 /// A draft whose losses weigh more than this waits for one with smaller cells, if that loses so much less.
 const MUCH: f64 = 0.1;
+const SOME: f64 = 0.05;
 const LESS: f64 = 0.1;
+
+/// Smaller cells for the sake of what was lost alone have to show so much more, as a share of the features, or half of it.
+const CLEARLY: f64 = 0.02;
 
 /// What an attempt has to reach to be worth going on with.
 #[derive(Clone, Copy, Debug)]
@@ -76,14 +80,28 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    /// That of the best attempt so far.
-    pub(super) fn of(best: &AttemptReport, taste: Taste) -> Self {
-        Self { off_euler: off_euler(&best.core), lost: lost(best.features.as_ref()) + taste.loss }
+    /// That of the best attempt so far. Another than one that is astray may lose more, as much as weighs no more than what
+    /// it may bring mesh and solid nearer.
+    pub(super) fn of(best: &AttemptReport, options: &HexingOptions, taste: Taste) -> Self {
+        let apart = best.mesh.as_ref().map_or(0.0, |mesh| mesh.distance.hausdorff() / options.edge_length);
+        let gain = APART * (apart - taste.astray).max(0.0);
+        Self {
+            off_euler: off_euler(&best.core),
+            lost: lost(best.features.as_ref()) + taste.loss + gain / taste.lost,
+        }
     }
 
-    /// That of a draft that [loses much](loses_much).
+    /// That of smaller cells where the best attempt lost something and has nothing else to mend.
+    pub(super) fn of_refined(best: &AttemptReport) -> Self {
+        let was = lost(best.features.as_ref());
+        Self { off_euler: off_euler(&best.core), lost: (was - CLEARLY).max(0.5 * was) }
+    }
+
+    /// That of a draft that [loses much](loses_much). What may show a part that the draft lacks may lose anything.
     pub(super) fn of_draft(draft: &AttemptReport, taste: Taste) -> Self {
-        Self { off_euler: off_euler(&draft.core), lost: lost(draft.features.as_ref()) - LESS / taste.lost }
+        let was = lost(draft.features.as_ref());
+        let lost = if draft.lacks_part { f64::INFINITY } else { was - LESS / taste.lost };
+        Self { off_euler: off_euler(&draft.core), lost }
     }
 
     /// Is a core that is so far from the solid's Euler number, with these features if they are known, not worth it?
@@ -112,6 +130,11 @@ pub(super) fn captured(features: Option<&FeatureReport>) -> f64 {
     })
 }
 
+/// Does a draft lose so many features that it may lack a part?
+pub(super) fn loses_some(draft: &AttemptReport, taste: Taste) -> bool {
+    taste.lost * lost(draft.features.as_ref()) > SOME
+}
+
 /// Does a draft lose so many features that it is worth looking first whether smaller cells lose less?
 pub(super) fn loses_much(draft: &AttemptReport, taste: Taste) -> bool {
     taste.lost * lost(draft.features.as_ref()) > MUCH
@@ -119,9 +142,9 @@ pub(super) fn loses_much(draft: &AttemptReport, taste: Taste) -> bool {
 
 /// Does the draft `a` show more of the solid than `b`, be that a mesh or not?
 pub(super) fn shows_more(a: &AttemptReport, b: &AttemptReport) -> bool {
-    let lacks = |report: &AttemptReport| (off_euler(&report.core), lost(report.features.as_ref()));
-    let ((off_a, lost_a), (off_b, lost_b)) = (lacks(a), lacks(b));
-    off_a < off_b || off_a == off_b && lost_a < lost_b
+    let lacks = |report: &AttemptReport| (off_euler(&report.core), report.lacks_part);
+    let order = lacks(a).cmp(&lacks(b));
+    order.then(lost(a.features.as_ref()).total_cmp(&lost(b.features.as_ref()))) == Ordering::Less
 }
 
 /// Are mesh and solid farther from each other than allowed?
@@ -244,7 +267,7 @@ mod tests {
         assert!(is_better(&creased, &good, &options(), Taste::DRAWN));
         // Whichever comes first, the other is gone on with.
         for [first, second] in [[&good, &creased], [&creased, &good]] {
-            assert!(!Bar::of(first, Taste::FREE_FORM).is_above(0, second.features.as_ref()));
+            assert!(!Bar::of(first, &options(), Taste::FREE_FORM).is_above(0, second.features.as_ref()));
         }
         // They count all the same: ten of a hundred as much as half of that share of two edges.
         let smooth = |distance| attempt(2, 10, distance, 0.45, 0.895);
@@ -293,10 +316,45 @@ mod tests {
 
     #[test]
     fn attempts_that_lose_much_more_are_not_gone_on_with() {
-        let bar = Bar::of(&attempt(2, 3, 0.5, 0.4, 0.9), Taste::DRAWN);
+        let bar = Bar::of(&attempt(2, 3, 0.5, 0.4, 0.9), &options(), Taste::DRAWN);
         let losing = |lost| attempt(2, lost, 0.0, 0.0, 0.0).features;
         assert!(!bar.is_above(0, None) && bar.is_above(2, None));
         assert!(!bar.is_above(0, losing(4).as_ref()) && bar.is_above(0, losing(6).as_ref()));
+    }
+
+    /// It is a tenth of an edge beyond astray, which weighs a fifth of the features.
+    #[test]
+    fn attempts_after_one_that_is_astray_may_lose_what_nearness_weighs() {
+        let bar = Bar::of(&attempt(2, 3, 1.0, 0.4, 0.9), &options(), Taste::DRAWN);
+        let is_above = |lost| bar.is_above(0, attempt(2, lost, 0.0, 0.0, 0.0).features.as_ref());
+        assert_eq!([24, 26].map(is_above), [false, true]);
+        let draft = AttemptReport { mesh: None, ..attempt(2, 3, 0.0, 0.0, 0.0) };
+        let bar = Bar::of(&draft, &options(), Taste::DRAWN);
+        assert!(bar.is_above(0, attempt(2, 6, 0.0, 0.0, 0.0).features.as_ref()));
+    }
+
+    #[test]
+    fn smaller_cells_for_what_was_lost_alone_have_to_show_clearly_more() {
+        for (was, enough) in [(20, 18), (10, 8), (3, 1), (1, 0)] {
+            let bar = Bar::of_refined(&attempt(2, was, 0.1, 0.4, 0.9));
+            let is_above = |lost| bar.is_above(0, attempt(2, lost, 0.0, 0.0, 0.0).features.as_ref());
+            assert_eq!([enough, enough + 1].map(is_above), [false, true], "{was}");
+        }
+    }
+
+    #[test]
+    fn of_drafts_that_wait_one_that_lacks_no_part_is_first() {
+        let draft = |lost, lacks_part| AttemptReport { lacks_part, ..attempt(2, lost, 0.0, 0.0, 0.0) };
+        let [lacking, whole, other] = [
+            draft(9, true),
+            draft(30, false),
+            AttemptReport { lacks_part: true, ..attempt(0, 0, 0.0, 0.0, 0.0) },
+        ];
+        assert!(shows_more(&whole, &lacking) && !shows_more(&lacking, &whole));
+        assert!(shows_more(&lacking, &other) && shows_more(&draft(8, true), &lacking));
+        let bar = Bar::of_draft(&lacking, Taste::DRAWN);
+        assert!(!bar.is_above(0, draft(60, false).features.as_ref()));
+        assert!(bar.is_above(2, draft(0, false).features.as_ref()));
     }
 
     #[test]
@@ -304,6 +362,7 @@ mod tests {
         let draft = |lost| AttemptReport { mesh: None, ..attempt(2, lost, 0.0, 0.0, 0.0) };
         assert_eq!([9, 11].map(|lost| loses_much(&draft(lost), Taste::DRAWN)), [false, true]);
         assert_eq!([19, 21].map(|lost| loses_much(&draft(lost), Taste::FREE_FORM)), [false, true]);
+        assert_eq!([4, 6].map(|lost| loses_some(&draft(lost), Taste::DRAWN)), [false, true]);
         let bar = Bar::of_draft(&draft(30), Taste::DRAWN);
         assert_eq!([19, 21].map(|lost| bar.is_above(0, draft(lost).features.as_ref())), [false, true]);
         assert!(bar.is_above(1, draft(0).features.as_ref()));

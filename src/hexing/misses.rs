@@ -55,7 +55,7 @@ impl FineCells {
     }
 
     /// The level of the finest cell at each point.
-    fn finest(&self, points: impl Iterator<Item = Point>) -> Vec<u8> {
+    pub(super) fn finest(&self, points: impl Iterator<Item = Point>) -> Vec<u8> {
         let shares: Vec<Point> = points.map(|p| self.share(p)).collect();
         let index = BoxIndex::of_points(&shares);
         let mut finest = vec![0; shares.len()];

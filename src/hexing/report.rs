@@ -75,6 +75,9 @@ pub struct AttemptReport {
     pub keep_thin: bool,
     /// The core.
     pub core: CoreReport,
+    /// Was some part of the solid farther from the core than cells are large? Looked for where it lost some, and no distance was
+    /// asked for.
+    pub lacks_part: bool,
     /// What became of the solid's features; not looked for where the core was worse than one before.
     pub features: Option<FeatureReport>,
     /// The mesh; not made where core or features were worse than those of an attempt before, or were left for a better one.

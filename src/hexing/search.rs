@@ -5,7 +5,7 @@
 //! less, or have something to mend.
 
 use super::attempt::{Draft, Meshed, draft, off_euler};
-use super::background::{Background, Failure};
+use super::background::{Background, Failure, Missed};
 use super::ground::{Plan, Site};
 use super::merit::{Bar, captured, distance, is_better, is_far, loses_much, shows_more, worst};
 use super::options::HexingError;
@@ -63,11 +63,11 @@ impl<'a> Search<'a> {
     }
 
     /// Makes an attempt; keeps it if it is better than the best so far. A draft of another kind than the solid waits, as does
-    /// one that loses so much that smaller cells are tried first. Between planes of the solid there may be as many lines of a
+    /// one that loses so much that smaller cells are tried first, unless another that waits shows more. Between planes of the solid there may be as many lines of a
     /// grid as before: one with the core of another is given up.
     pub(super) fn attempt(&mut self, plan: Plan, max_hexes: u64) -> Result<(), HexingError> {
         let number = self.attempts.len();
-        let draft = match self.draft(&plan, max_hexes, self.bar())? {
+        let draft = match self.draft(&plan, max_hexes, self.bar(&plan))? {
             Ok(draft) => draft,
             Err(report) => {
                 self.attempts.push(report);
@@ -83,12 +83,15 @@ impl<'a> Search<'a> {
         let failures = draft.failures(self.site);
         let is_of_kind = off_euler(&draft.report.core) == 0;
         let has_rival = self.best.is_some() && !self.waits();
-        let loses_much = !has_rival && !failures.is_empty() && loses_much(&draft.report, self.site.taste);
-        if is_of_kind && !loses_much {
+        let may_wait = !has_rival && !failures.is_empty();
+        let waits = may_wait && (draft.report.lacks_part || loses_much(&draft.report, self.site.taste));
+        if is_of_kind && !waits {
             return self.fit(draft, plan, number);
         }
         if self.best_report().is_none_or(|best| shows_more(&draft.report, best)) {
             self.best = Some(Attempt { meshed: None, failures, number, plan: plan.clone() });
+        } else if self.waits() {
+            return Ok(());
         }
         if let Some(last) = self.waiting.last_mut() {
             last.draft = None;
@@ -98,9 +101,18 @@ impl<'a> Search<'a> {
     }
 
     /// What another attempt has to reach to be gone on with.
-    fn bar(&self) -> Option<Bar> {
-        let of = if self.waits() { Bar::of_draft } else { Bar::of };
-        self.best_report().map(|best| of(best, self.site.taste))
+    fn bar(&self, plan: &Plan) -> Option<Bar> {
+        let (options, taste) = (self.site.options, self.site.taste);
+        let (best, report) = (self.best.as_ref()?, self.best_report()?);
+        let lost_alone = best.failures.iter().all(|failure| failure.missed == Missed::Lost);
+        let is_refined = self.is_good() && best.plan.kind == plan.kind;
+        Some(if self.waits() {
+            Bar::of_draft(report, taste)
+        } else if is_refined && lost_alone {
+            Bar::of_refined(report)
+        } else {
+            Bar::of(report, options, taste)
+        })
     }
 
     /// Is the best attempt a draft of the solid's kind?
@@ -130,14 +142,14 @@ impl<'a> Search<'a> {
     }
 
     /// Fits drafts that wait, the last and best first, until there is a mesh with nothing to mend; those that are farther from
-    /// the solid's kind than a mesh are passed over.
+    /// the solid's kind than a mesh, or lack a part that it does not, are passed over.
     pub(super) fn settle(&mut self) -> Result<(), HexingError> {
         self.best = self.best.take().filter(|best| best.meshed.is_some());
         while !self.is_good()
             && let Some(waiting) = self.waiting.pop()
         {
-            let off = |report: &AttemptReport| off_euler(&report.core);
-            if self.best_report().is_none_or(|best| off(&self.attempts[waiting.number]) <= off(best)) {
+            let lacks = |report: &AttemptReport| (off_euler(&report.core), report.lacks_part);
+            if self.best_report().is_none_or(|best| lacks(&self.attempts[waiting.number]) <= lacks(best)) {
                 self.fit_waiting(waiting)?;
             }
         }

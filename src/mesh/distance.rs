@@ -106,6 +106,30 @@ impl Distances {
     pub fn hausdorff(&self) -> f64 {
         self.mesh_to_surface.max.max(self.surface_to_mesh.max)
     }
+
+    /// The sample that is as far as that.
+    pub(crate) fn farthest(&self) -> Point {
+        let [mesh, surface] = [&self.mesh_to_surface, &self.surface_to_mesh];
+        Point::from(if surface.max > mesh.max { surface.farthest } else { mesh.farthest })
+    }
+}
+
+/// How far a surface is from a mesh with quads at its boundary, at most: at samples that are no farther from each other than
+/// about a `step`.
+///
+/// # Errors
+/// [`Cancelled`] when the monitor says so.
+pub(crate) fn farthest_from_quads(
+    surface: Triangles<'_>,
+    mesh: Quads<'_>,
+    step: f64,
+    monitor: &dyn Monitor,
+) -> Result<f64, Cancelled> {
+    monitor.checkpoint(MEASURING, 0.0)?;
+    let nearest = NearestFacet::within(mesh.facets(), monitor)?;
+    let measured = Measured::of(surface, step, f64::INFINITY, &|p| nearest.closest_point(p), monitor)?;
+    monitor.checkpoint(MEASURING, 1.0)?;
+    Ok(measured.max)
 }
 
 /// For each hex how far its boundary faces are from a surface: the greatest distance of their nodes and
@@ -295,5 +319,19 @@ mod tests {
         assert!(distances.mesh_to_surface.max < 1e-12);
         assert!(distances.surface_to_mesh.max > 1.0);
         assert_eq!(distances.hausdorff(), distances.surface_to_mesh.max);
+        assert_eq!(distances.farthest(), Point::from(distances.surface_to_mesh.farthest));
+        let other_way = between(&corners(0.0), &half);
+        assert_eq!(other_way.farthest(), Point::from(other_way.mesh_to_surface.farthest));
+    }
+
+    /// A long triangle with an end at a small quad.
+    #[test]
+    fn a_surface_is_measured_from_quads() {
+        let quad = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Point::new(x, y, 0.0));
+        let mesh = Quads { positions: &quad, quads: &[[0, 1, 2, 3].map(NodeId)] };
+        let long = [[0.5, 0.0], [9.0, 0.5], [0.5, 1.0]].map(|[x, y]| Point::new(x, y, 0.25));
+        let surface = Triangles { positions: &long, triangles: &[[0, 1, 2]] };
+        let far = farthest_from_quads(surface, mesh, 1.0, &Silent).unwrap();
+        assert!((far - f64::hypot(8.0, 0.25)).abs() < 1e-12, "{far}");
     }
 }

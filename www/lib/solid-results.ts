@@ -170,6 +170,8 @@ export interface SolidAttempt {
   keepThin: boolean;
   /** The hexes of the background that stand for the body. */
   core: CoreReport;
+  /** Whether some part of the body is farther from the core than cells are large: looked for where features were lost. */
+  lacksPart: boolean;
   features: FeatureReport | null;
   /**
    * Layers of hexes that were put under the boundary where cells would be flat or thin there, and how many were left out

@@ -28,8 +28,9 @@ use crate::{Cancelled, Monitor, parallel};
 /// Cells whose scaled Jacobian is below this are poor.
 const POOR: f64 = 0.46;
 
-/// A curve is soft if its sides meet at an angle that is nearer to a straight one than this, in degrees, one of them is
-/// neither planar nor extruded, and they are one surface, or the square root of the area of one is less than so many edges.
+/// A curve is soft if its sides meet at an angle that is nearer to a straight one than this, in degrees, and unless that is
+/// a crease of a free form, one of them is neither planar nor extruded, and they are one surface, or the square root of the
+/// area of one is less than so many edges.
 const SOFT: f64 = 60.0;
 const SMALL: f64 = 0.8;
 
@@ -199,9 +200,9 @@ fn least_missed(hex: &[NodeId; 8], size: f64, on: &Correspondence, solid: &Solid
         let curve = &solid.curves()[curve.index()];
         let [a, b] = curve.sides;
         let is_small = |s: SurfaceId| is_smaller(solid, s, SMALL * size);
-        curve.sharpness() < SOFT
-            && (is_general(solid, a) || is_general(solid, b))
-            && (a == b || is_small(a) || is_small(b))
+        let is_of_scan = || solid.is_free_form();
+        let is_blend = || is_general(solid, a) || is_general(solid, b);
+        curve.sharpness() < SOFT && (is_of_scan() || is_blend() && (a == b || is_small(a) || is_small(b)))
     };
     let kept = curves.filter(|curve| on.reduction.curve(*curve) == CurveFate::Captured).filter(is_soft);
     kept.min_by(|a, b| {
@@ -294,6 +295,36 @@ mod tests {
         let (freely, far) = softened(f64::INFINITY);
         assert!(on_it < near_it && near_it < freely, "{on_it} {near_it} {freely}");
         assert!(little <= 0.05 + 1e-9 && 0.05 < far && far < 1.1 * LEAVE_FORM, "{little} {far}");
+    }
+
+    /// The rim of a lens is one of a free form, that of a cylinder is not.
+    #[test]
+    fn all_creases_of_free_forms_are_soft() {
+        let on_lens = |p: Point| {
+            let v = p - 4.0;
+            let ball = v.normalize_or_zero() * v.abs().max_element();
+            let height = v.z.signum() * (4.0 - ball.truncate().length_squared() / 4.0);
+            Point::splat(4.0) + if v.z == 0.0 { ball } else { ball.with_z(height) }
+        };
+        let on_cylinder = |p: Point| {
+            let v = (p - 4.0).with_z(0.0);
+            Point::new(4.0, 4.0, p.z) + v.normalize_or_zero() * v.abs().max_element()
+        };
+        let softened = |surface: PolygonMesh| {
+            let solid = crate::solid::testing::solid(&surface);
+            let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: true, max_hexes: 1000 };
+            let mesh = hex_grid(solid.bounds(), &options).unwrap();
+            let on = correspond(&mesh, &solid, &Silent).unwrap();
+            let all: Vec<u32> = (0..mesh.hexes.len() as u32).collect();
+            (
+                solid.is_free_form(),
+                solid.curves().len(),
+                mendable(&mesh, &on, &solid, &all, |_| false).1.len(),
+            )
+        };
+        let cube = || voxels([8, 8, 8], |_| true);
+        assert_eq!(softened(moved(cube(), on_lens)), (true, 1, 1));
+        assert_eq!(softened(moved(cube(), on_cylinder)), (false, 2, 0));
     }
 
     /// The foot of a dome is a soft curve: hexes there are mended whether they are the worst or not.
