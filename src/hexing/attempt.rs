@@ -196,7 +196,7 @@ impl Draft {
         let (distance, mut failures) = seen.map_or_else(|| look(&meshed), Ok)?;
         let may_stay = kind == Background::Swept && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
         // Smaller cells elsewhere bring them no nearer where none may be smaller.
-        let is_finest = || cells.finest(std::iter::once(distance.farthest()))[0] >= site.finest(kind);
+        let is_finest = || cells.finest(&[distance.farthest()])[0] >= site.finest(kind);
         if options.max_distance.is_none() && (may_stay || is_finest()) {
             failures.retain(|failure| failure.missed != Missed::Far);
         }

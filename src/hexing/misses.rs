@@ -55,8 +55,8 @@ impl FineCells {
     }
 
     /// The level of the finest cell at each point.
-    pub(super) fn finest(&self, points: impl Iterator<Item = Point>) -> Vec<u8> {
-        let shares: Vec<Point> = points.map(|p| self.share(p)).collect();
+    pub(super) fn finest(&self, points: &[Point]) -> Vec<u8> {
+        let shares: Vec<Point> = points.iter().map(|&p| self.share(p)).collect();
         let index = BoxIndex::of_points(&shares);
         let mut finest = vec![0; shares.len()];
         for (&[min, max], &level) in self.boxes.iter().zip(&self.levels) {
@@ -97,8 +97,8 @@ pub(super) fn misses(
         failures.extend(core.lost.iter().map(|part| Failure::of_lost(part.centers.clone(), 0)));
     }
     failures.extend(far.into_iter().map(|place| Failure::of_far(place, 0)));
-    let mut finest =
-        cells.finest(failures.iter().flat_map(|failure| failure.points.iter().copied())).into_iter();
+    let points: Vec<Point> = failures.iter().flat_map(|failure| &failure.points).copied().collect();
+    let mut finest = cells.finest(&points).into_iter();
     for failure in &mut failures {
         failure.level = finest.by_ref().take(failure.points.len()).min().unwrap_or(0);
     }
@@ -156,7 +156,7 @@ mod tests {
             };
             let at =
                 [1.0, 2.0, 2.5, 3.0, 3.2, 3.5, 3.75, 3.76].map(|x| Point::new(origin + size * x, 0.0, size));
-            FineCells::of(&OctreeMesh { mesh, level: vec![0, 1, 2, 3] }).finest(at.into_iter())
+            FineCells::of(&OctreeMesh { mesh, level: vec![0, 1, 2, 3] }).finest(&at)
         };
         for (origin, size) in [(0.0, 1.0), (-1e6, 0.25), (1e40, 1e38), (0.0, 1e-40)] {
             assert_eq!(cells(origin, size), [0, 1, 1, 2, 2, 3, 3, 0], "{origin} {size}");

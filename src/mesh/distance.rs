@@ -81,9 +81,7 @@ impl Distances {
             Measured::of(mesh, edge, limit, &|p| nearest.closest_point(p), monitor)?.told()
         };
         monitor.checkpoint(MEASURING, 0.5)?;
-        let nearest = NearestFacet::within(mesh.facets(), monitor)?;
-        let (surface_to_mesh, of_surface) =
-            Measured::of(surface, edge, limit, &|p| nearest.closest_point(p), monitor)?.told();
+        let (surface_to_mesh, of_surface) = Measured::from(surface, mesh, edge, limit, monitor)?.told();
         monitor.progress(MEASURING, 1.0);
         beyond.extend(of_surface);
         Ok((Self { mesh_to_surface, surface_to_mesh }, beyond))
@@ -126,10 +124,9 @@ pub(crate) fn farthest_from_quads(
     monitor: &dyn Monitor,
 ) -> Result<f64, Cancelled> {
     monitor.checkpoint(MEASURING, 0.0)?;
-    let nearest = NearestFacet::within(mesh.facets(), monitor)?;
-    let measured = Measured::of(surface, step, f64::INFINITY, &|p| nearest.closest_point(p), monitor)?;
+    let far = Measured::from(surface, mesh, step, f64::INFINITY, monitor)?.max;
     monitor.checkpoint(MEASURING, 1.0)?;
-    Ok(measured.max)
+    Ok(far)
 }
 
 /// For each hex how far its boundary faces are from a surface: the greatest distance of their nodes and
@@ -200,6 +197,18 @@ impl Measured {
         };
         sampled.sample(edge, monitor, &mut take)?;
         Ok(all)
+    }
+
+    /// The same, of a surface and a mesh.
+    fn from(
+        surface: Triangles<'_>,
+        mesh: impl Sampled,
+        edge: f64,
+        limit: f64,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let nearest = NearestFacet::within(mesh.facets(), monitor)?;
+        Self::of(surface, edge, limit, &|p| nearest.closest_point(p), monitor)
     }
 
     /// The distance, and the samples beyond the limit.
