@@ -171,10 +171,10 @@ impl Draft {
         if !fitted.report.inverted.is_empty() {
             return Err(HexingError::Tangled(fitted.report.inverted.len()));
         }
-        let is_all_there = off_euler(&core.report) == 0
-            && misses(site, kind, &core, &on.reduction, Vec::new(), &cells).is_empty();
-        // Unless somebody asked for the distance, smaller cells are better where many are poor.
-        let may_approach = is_all_there && (options.max_distance.is_some() || fitted.report.mean >= FAIR);
+        let misses_features = || !misses(site, kind, &core, &on.reduction, Vec::new(), &cells).is_empty();
+        // Where a distance is asked for smaller cells come first if more is missed; unless it is, where many are poor.
+        let may_approach = off_euler(&core.report) == 0
+            && if options.max_distance.is_some() { !misses_features() } else { fitted.report.mean >= FAIR };
         let apart = fitted.report.apart;
         let mut meshed = Meshed { mesh, on, fitted, approach: None };
         let look = |meshed: &Meshed| -> Result<(Distances, Vec<Failure>), Cancelled> {
@@ -186,7 +186,8 @@ impl Draft {
         // What a survey sees is too far need not be looked at before that is mended.
         let survey = survey.filter(|_| may_approach && apart > near && !is_hopeless);
         let mut seen = if survey.is_none() { Some(look(&meshed)?) } else { None };
-        if may_approach && seen.as_ref().is_none_or(|(_, failures)| !failures.is_empty()) {
+        let is_far = |failures: &[Failure]| failures.iter().any(|failure| failure.missed == Missed::Far);
+        if may_approach && seen.as_ref().is_none_or(|(_, failures)| is_far(failures)) {
             if is_hopeless {
                 meshed.approach = Some(fit_options);
             } else if meshed.approach(solid, survey, &fit_options, monitor)? {
@@ -410,10 +411,12 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_that_misses_more_than_distance_does_not_approach() {
+    fn a_mesh_that_misses_more_than_distance_approaches_unless_that_is_asked_for() {
         let [lost, both] = [10.0, 0.03].map(|max_distance| fitted(0.7, max_distance));
         assert!(lost.failures > 0 && lost.distance < 10.0, "it misses something else");
         assert!(both.failures > lost.failures && both.distance > 0.03 && !both.approached);
+        let unasked = fitted_with(0.4, 0.7, None);
+        assert!(unasked.approached && unasked.failures == lost.failures);
     }
 
     #[test]

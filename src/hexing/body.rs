@@ -1,11 +1,10 @@
 //! A mesh of one body: attempts, until there is nothing left to mend (design, section 5; issue: refine and retry).
 //!
 //! 1. The background of choice, as it is.
-//! 2. Where that missed something that somebody drew, or is too far from the solid, cells a level smaller there,
-//!    as often as the options allow, and as long as it helps. Where nothing was missed but what was lost, they have to show
-//!    clearly more before they are fitted. Of a core that is not of the solid's kind it is not always
-//!    known where it differs: then thin walls, narrow gaps and short curves are refined. Where that would be many
-//!    cells, what was lost alone.
+//! 2. Where that missed something that somebody drew, or is too far from the solid, cells a level smaller there, as often as
+//!    the options allow, and as long as it helps: before such an attempt is fitted it has to show clearly more, unless it is
+//!    made for more than what was lost. Of a core that is not of the solid's kind it is not always known where it differs:
+//!    then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was lost alone.
 //! 3. Where the best is a sweep that does not show some part of the solid, or whose cells are bad, a grid; one that is better
 //!    but does not show all is refined in its turn.
 //! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
@@ -13,9 +12,9 @@
 //!    octree, and 2 for that. What shows less than half before it is fitted, or lacks some part of the solid, is not fitted
 //!    before that.
 //!
-//! A mesh that misses nothing but is too far from the solid is first brought nearer with cells that are fair instead of good
-//! (`attempt`), unless nobody asked for the distance and many of its cells are poor. Where it is so far that this hardly ever
-//! suffices, smaller cells are tried before that, and it is brought nearer if it is kept.
+//! A mesh that is too far from the solid is first brought nearer with cells that are fair instead of good (`attempt`), unless
+//! it misses more and a distance is asked for, or none is and many of its cells are poor. Where it is so far that this hardly
+//! ever suffices, smaller cells are tried before that, and it is brought nearer if it is kept.
 //!
 //! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and
 //! how many times as large as the first another may be is bounded.

@@ -1,8 +1,8 @@
 //! The attempts at a body: drafts and meshes, and which of them is the best.
 //!
 //! A draft, a core that is not fitted yet, tells already whether it is of the solid's kind and which features it loses. One of
-//! another kind is fitted only if none of the solid's kind is found; one that loses much, only if smaller cells lose hardly
-//! less, or have something to mend.
+//! another kind is fitted only if none of the solid's kind is found; one that lacks a part of the solid, only if the others do;
+//! one that loses much, only if smaller cells lose hardly less, or have something to mend.
 
 use super::attempt::{Draft, Meshed, draft, off_euler};
 use super::background::{Background, Failure, Missed};
@@ -63,8 +63,8 @@ impl<'a> Search<'a> {
     }
 
     /// Makes an attempt; keeps it if it is better than the best so far. A draft of another kind than the solid waits, as does
-    /// one that loses so much that smaller cells are tried first, unless another that waits shows more. Between planes of the solid there may be as many lines of a
-    /// grid as before: one with the core of another is given up.
+    /// one that lacks a part of it, or loses so much that smaller cells are tried first; unless another that waits shows more.
+    /// Between planes of the solid there may be as many lines of a grid as before: one with the core of another is given up.
     pub(super) fn attempt(&mut self, plan: Plan, max_hexes: u64) -> Result<(), HexingError> {
         let number = self.attempts.len();
         let draft = match self.draft(&plan, max_hexes, self.bar(&plan))? {
