@@ -33,6 +33,7 @@ const MAX_SHARED_MEMORY = 2147483648;
 // own storage. RUSTC_BOOTSTRAP lets the pinned stable toolchain take -Z build-std.
 const THREADS_FLAGS = [
   '-C target-feature=+atomics,+bulk-memory,+mutable-globals,+simd128',
+  '-Z location-detail=file,line',
   '-C link-arg=--shared-memory',
   '-C link-arg=--import-memory',
   `-C link-arg=--max-memory=${MAX_SHARED_MEMORY}`,

@@ -28,6 +28,25 @@ pub trait Monitor: Sync {
     }
 }
 
+/// A part of a stage: what is told of any stage of the part is progress between the ends of its range in the stage of the
+/// whole.
+pub(crate) struct Part<'a> {
+    pub(crate) whole: &'a dyn Monitor,
+    pub(crate) stage: Stage,
+    pub(crate) range: [f64; 2],
+}
+
+impl Monitor for Part<'_> {
+    fn progress(&self, _: Stage, fraction: f64) {
+        let [from, to] = self.range;
+        self.whole.progress(self.stage, from + fraction * (to - from));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.whole.cancelled()
+    }
+}
+
 /// Elements between two questions to the monitor: a few milliseconds of work.
 const BATCH: usize = 1 << 17;
 

@@ -3,7 +3,7 @@
 use super::background::{Background, Failure, Missed, OctreeMesh};
 use super::core::{Core, CoreOptions, CoreReport, core};
 use super::correspondence::{Correspondence, correspond};
-use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, NEARER, Part, Survey, fit, quality};
+use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, NEARER, Survey, fit, quality};
 use super::ground::{Plan, Site};
 use super::merit::{Bar, FAIR, loses_some};
 use super::misses::{FineCells, misses, tolerance};
@@ -13,6 +13,7 @@ use super::separate::separate;
 use super::sheets::insert_sheets;
 use crate::geometry::Point;
 use crate::mesh::{Distances, HexMesh, MeshHash, NodeId, Quads, Triangles, farthest_from_quads, mesh_hash};
+use crate::monitor::Part;
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 

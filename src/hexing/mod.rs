@@ -30,7 +30,7 @@ mod separate;
 mod steps;
 
 pub use background::Background;
-pub use forecast::forecast_hexes;
+pub use forecast::{SolidForecast, forecast_hexes};
 pub use groups::{body_tags, surface_groups};
 pub use options::{HexingError, HexingOptions};
 pub use pipeline::{HexedSolid, hex_solid};

@@ -6,6 +6,7 @@ use super::samples::{Quads, Sampled, Triangles};
 use super::topology::hex_boundary;
 use super::{HexMesh, NodeId};
 use crate::geometry::{CutQuad, NearestFacet, NearestTriangle, Point};
+use crate::monitor::Part;
 use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// The stage that a monitor hears of.
@@ -74,14 +75,15 @@ impl Distances {
         surface: Triangles<'_>,
         monitor: &dyn Monitor,
     ) -> Result<(Self, Vec<Point>), Cancelled> {
+        let half = |range| Part { whole: monitor, stage: MEASURING, range };
         monitor.checkpoint(MEASURING, 0.0)?;
         let edge = mesh.mean_side();
         let (mesh_to_surface, mut beyond) = {
             let nearest = NearestFacet::within(surface.facets(), monitor)?;
-            Measured::of(mesh, edge, limit, &|p| nearest.closest_point(p), monitor)?.told()
+            Measured::of(mesh, edge, limit, &|p| nearest.closest_point(p), &half([0.0, 0.5]))?.told()
         };
-        monitor.checkpoint(MEASURING, 0.5)?;
-        let (surface_to_mesh, of_surface) = Measured::from(surface, mesh, edge, limit, monitor)?.told();
+        let (surface_to_mesh, of_surface) =
+            Measured::from(surface, mesh, edge, limit, &half([0.5, 1.0]))?.told();
         monitor.progress(MEASURING, 1.0);
         beyond.extend(of_surface);
         Ok((Self { mesh_to_surface, surface_to_mesh }, beyond))
@@ -183,7 +185,7 @@ impl Measured {
         let distance = |p: Point| nearest(p).map_or(f64::INFINITY, |q| q.distance(p));
         let [max, sum, squares] = [0.0; 3];
         let mut all = Self { max, sum, squares, farthest: Point::ZERO, samples: 0, beyond: Vec::new() };
-        let mut take = |batch: &[Point]| {
+        let mut take = |batch: &[Point], done: f64| {
             for (&p, d) in batch.iter().zip(parallel::collect(batch.len(), |k| distance(batch[k]))) {
                 (all.sum, all.squares) = (all.sum + d, all.squares + d * d);
                 if d >= all.max {
@@ -194,6 +196,7 @@ impl Measured {
                 }
             }
             all.samples += batch.len();
+            monitor.progress(MEASURING, done);
         };
         sampled.sample(edge, monitor, &mut take)?;
         Ok(all)
@@ -256,6 +259,8 @@ impl Distance {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Mutex;
+
     use super::*;
     use crate::Silent;
     use crate::geometry::Aabb;
@@ -293,6 +298,44 @@ mod tests {
         assert!(distances[13].is_nan());
     }
 
+    /// Hears what is told.
+    #[derive(Default)]
+    struct Hearing(Mutex<Vec<f64>>);
+
+    impl Monitor for Hearing {
+        fn progress(&self, stage: Stage, fraction: f64) {
+            assert_eq!(stage, MEASURING);
+            self.0.lock().unwrap().push(fraction);
+        }
+        fn cancelled(&self) -> bool {
+            false
+        }
+    }
+
+    /// Of a square of many small triangles, whose nodes, sides and faces are some batches of samples.
+    #[test]
+    fn progress_rises_in_small_steps() {
+        let at = |x: u32, y: u32| y * 101 + x;
+        let squares = (0..100u32).flat_map(|y| (0..100u32).map(move |x| [x, y]));
+        let triangles: Vec<[u32; 3]> = squares
+            .flat_map(|[x, y]| {
+                let [a, b, c, d] = [at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)];
+                [[a, b, c], [a, c, d]]
+            })
+            .collect();
+        let points =
+            |z: f64| (0..101 * 101).map(move |n| Point::new(f64::from(n % 101), f64::from(n / 101), z));
+        let [low, high] = [0.0, 1.0].map(|z| points(z).collect::<Vec<_>>());
+        let square = |positions| Triangles { positions, triangles: &triangles };
+        let hearing = Hearing::default();
+        let distances = Distances::between(square(&low), square(&high), &hearing).unwrap();
+        assert_eq!(distances.hausdorff(), 1.0);
+        let told = hearing.0.into_inner().unwrap();
+        assert!(told.is_sorted() && told.first() == Some(&0.0) && told.last() == Some(&1.0), "{told:?}");
+        let step = told.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        assert!(step < 0.15, "{told:?}");
+    }
+
     #[test]
     fn of_two_pairs_together() {
         let one = between(&corners(0.0), &corners(2.0));
@@ -314,7 +357,7 @@ mod tests {
         assert_eq!(distances, between(&mesh, &surface));
         let mut of_mesh: Vec<Point> = Vec::new();
         let edge = triangle(&mesh).mean_side();
-        triangle(&mesh).sample(edge, &Silent, &mut |batch| of_mesh.extend(batch)).unwrap();
+        triangle(&mesh).sample(edge, &Silent, &mut |batch, _| of_mesh.extend(batch)).unwrap();
         let of_surface: Vec<_> = of_mesh.iter().map(|p| p.with_z(2.0)).collect();
         assert_eq!(beyond, [of_mesh, of_surface].concat());
         assert_eq!(measured(2.0).1, []);

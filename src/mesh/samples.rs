@@ -30,6 +30,9 @@ const PIECE: f64 = 1.2;
 /// Samples of a surface so large that it has more with such steps are farther from each other.
 const MOST: f64 = 4e6;
 
+/// The share of the work that the sides are.
+const SIDES: f64 = 0.6;
+
 /// Samples that are given at once.
 const BATCH: usize = 1 << 14;
 
@@ -67,27 +70,32 @@ pub(crate) trait Sampled: Copy {
     }
 
     /// Gives the nodes in use, points of the sides, the middles of the faces, and the centroids of the pieces of large ones, for a
-    /// mesh with sides of about this length, some at a time.
+    /// mesh with sides of about this length, some at a time, with the share of the surface that is sampled then.
     fn sample(
         &self,
         edge: f64,
         monitor: &dyn Monitor,
-        take: &mut dyn FnMut(&[Point]),
+        take: &mut dyn FnMut(&[Point], f64),
     ) -> Result<(), Cancelled> {
         let positions = self.positions();
         let edge = edge.max(self.least_edge());
-        let mut giving = Giving { batch: Vec::with_capacity(BATCH), take, monitor };
+        let mut giving = Giving { batch: Vec::with_capacity(BATCH), done: 0.0, take, monitor };
         let mut used = vec![false; positions.len()];
         self.sides().for_each(|[node, _]| used[node as usize] = true);
         giving.all(positions.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p))?;
         let long = self.sides().filter(|&side| length(positions, side) > STEP * edge);
-        for side in once(long.map(|[a, b]| [NodeId(a.min(b)), NodeId(a.max(b))]).collect()) {
+        let long = once(long.map(|[a, b]| [NodeId(a.min(b)), NodeId(a.max(b))]).collect());
+        let count = long.len().max(1) as f64;
+        for (k, side) in long.into_iter().enumerate() {
+            giving.done = SIDES * k as f64 / count;
             let [a, b] = side.map(|n| positions[n.index()]);
             let steps = (a.distance(b) / (STEP * edge)).ceil() as u32;
             giving.all((1..steps).map(|k| a.lerp(b, f64::from(k) / f64::from(steps))))?;
         }
         let mut pieces: Vec<[Point; 3]> = Vec::new();
-        for facet in self.facets() {
+        let count = self.facets().count() as f64;
+        for (k, facet) in self.facets().enumerate() {
+            giving.done = SIDES + (1.0 - SIDES) * k as f64 / count;
             giving.all(Self::middles(facet))?;
             if longest(facet.corners()) > PIECE * edge {
                 pieces.extend(Self::triangles(facet));
@@ -114,7 +122,9 @@ pub(crate) trait Sampled: Copy {
 /// Samples on their way.
 struct Giving<'a> {
     batch: Vec<Point>,
-    take: &'a mut dyn FnMut(&[Point]),
+    /// The share of the surface that is sampled.
+    done: f64,
+    take: &'a mut dyn FnMut(&[Point], f64),
     monitor: &'a dyn Monitor,
 }
 
@@ -131,7 +141,7 @@ impl Giving<'_> {
 
     fn flush(&mut self) -> Result<(), Cancelled> {
         self.monitor.proceed()?;
-        (self.take)(&self.batch);
+        (self.take)(&self.batch, self.done);
         self.batch.clear();
         Ok(())
     }
@@ -229,7 +239,7 @@ mod tests {
     /// All at once.
     fn samples(surface: impl Sampled, edge: f64) -> Vec<Point> {
         let mut samples = Vec::new();
-        surface.sample(edge, &Silent, &mut |batch| samples.extend(batch)).unwrap();
+        surface.sample(edge, &Silent, &mut |batch, _| samples.extend(batch)).unwrap();
         samples
     }
 

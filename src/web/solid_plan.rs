@@ -6,7 +6,7 @@ use super::convert::Bounds;
 use super::solids::BYTES_PER_HEX;
 use crate::Monitor;
 use crate::geometry::Point;
-use crate::hexing::{HexingError, HexingOptions, forecast_hexes};
+use crate::hexing::{HexingError, HexingOptions, SolidForecast, forecast_hexes};
 use crate::mesh::PolygonMesh;
 use crate::solid::{self, SolidModel, SolidReport, SurfaceClass};
 
@@ -24,6 +24,7 @@ pub(super) struct Plan {
     /// About; without an edge length null.
     hexes: Option<f64>,
     bytes: Option<f64>,
+    idle_regions: Vec<u32>,
 }
 
 #[derive(Serialize)]
@@ -66,7 +67,9 @@ impl Plan {
     ) -> Result<Self, HexingError> {
         let (solid, found) = SolidModel::new(surface, &options.solid(), monitor)?;
         let has_length = options.edge_length != 0.0;
-        let hexes = has_length.then(|| forecast_hexes(&solid, options, monitor)).transpose()?.map(f64::ceil);
+        let forecast = has_length.then(|| forecast_hexes(&solid, options, monitor)).transpose()?;
+        let (hexes, idle_regions) =
+            forecast.map(|SolidForecast { hexes, idle_regions }| (hexes.ceil(), idle_regions)).unzip();
         Ok(Self {
             found,
             bounds: solid.bounds().into(),
@@ -77,6 +80,7 @@ impl Plan {
             surfaces: solid.surfaces().iter().map(Surface::from).collect(),
             hexes,
             bytes: hexes.map(|hexes| hexes * BYTES_PER_HEX as f64),
+            idle_regions: idle_regions.unwrap_or_default(),
         })
     }
 }

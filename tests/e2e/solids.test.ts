@@ -45,6 +45,17 @@ test('a dropped solid shows its features, and follows the angle', async () => {
   await page.getByLabel('Feature angle').fill('30');
 });
 
+test('a region that meets nothing of the solid says so', async () => {
+  const { page } = bench;
+  const region = page.locator('[data-region="0"]');
+  await bench.fill('Edges about as long as, model units', '0.3');
+  await page.getByRole('button', { name: 'Add sphere' }).click();
+  await region.getByText('edges ≤').waitFor();
+  await bench.fill('Centre x', '1000');
+  await region.getByText('meets nothing').waitFor();
+  await region.getByRole('button', { name: /^Delete/ }).click();
+});
+
 test('it is filled with hexes that show every feature', async () => {
   const { page } = bench;
   await bench.fill('Edges about as long as, model units', '0.3');

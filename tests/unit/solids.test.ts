@@ -55,6 +55,13 @@ describe.each([1, 2])('solids on %i threads', (threads) => {
     expect((await mesher.planSolid(HOUSE)).hexes).toBeNull();
   });
 
+  it('tell the regions that meet nothing of them before', async () => {
+    const ball = (x: number) => ({ kind: 'sphere', center: [x, 0.7, 0.5], radius: 0.4, level: 1 }) as const;
+    const regions = [ball(5), ball(1), ball(-0.5)];
+    expect((await mesher.planSolid(HOUSE, { edgeLength: 0.25, regions })).idleRegions).toEqual([0, 2]);
+    expect((await mesher.planSolid(HOUSE, { edgeLength: 0.25 })).idleRegions).toEqual([]);
+  });
+
   it('are the same from text, bytes, STL and a surface that was loaded', async () => {
     using surface = await mesher.load(CUBE);
     const bytes = new TextEncoder().encode(CUBE);

@@ -16,6 +16,8 @@ export interface SolidPlan {
   hexes: number | null;
   /** Peak memory of the work, about; null without an edge length. */
   bytes: number | null;
+  /** The regions that overlap no part of the solid, by their places in `regions`; none without an edge length. They refine nothing. */
+  idleRegions: number[];
 }
 
 /** A line that the mesh keeps: where surfaces meet, or a crease within one. */

@@ -8,13 +8,13 @@
 use super::super::correspondence::Correspondence;
 use super::holds::{Hold, Holds};
 use super::near::{Terms, near};
-use super::progress::Part;
 use super::rings::widen;
 use super::soften::SMOOTHING;
 use super::survey::Survey;
 use super::target::OnSolid;
 use super::{APPROACH, FITTING, FitOptions, FitReport, Fitted, GOOD, course, off, quality};
 use crate::mesh::{HexMesh, NodeId};
+use crate::monitor::Part;
 use crate::optimize::{Evening, Problem, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};

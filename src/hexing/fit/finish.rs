@@ -5,9 +5,9 @@
 use super::super::correspondence::{Anchor, Correspondence};
 use super::even::even;
 use super::holds::Hold;
-use super::progress::Part;
 use super::{Fitted, quality};
 use crate::mesh::{HexMesh, NodeId};
+use crate::monitor::Part;
 use crate::optimize::Evening;
 use crate::solid::{SolidModel, SurfaceClass};
 use crate::{Cancelled, Monitor, Stage};

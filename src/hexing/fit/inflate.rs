@@ -7,11 +7,11 @@ use super::super::correspondence::Correspondence;
 use super::super::sheets::SheetReport;
 use super::FITTING;
 use super::holds::Holds;
-use super::progress::Part;
 use super::target::Target;
 use crate::geometry::Point;
 use crate::mesh::HexMesh;
 use crate::mesh::numbering::hex::NEIGHBOURS;
+use crate::monitor::Part;
 use crate::optimize::{OptimizeOptions, Problem, untangle};
 use crate::{Cancelled, Monitor};
 

@@ -9,13 +9,13 @@
 use super::super::correspondence::{Anchor, Correspondence};
 use super::apart::{Apart, Probes, power};
 use super::holds::Hold;
-use super::progress::Part;
 use super::rings::widen;
 use super::survey::{Survey, mean_edge, mean_side, quads};
 use super::target::{OnSolid, Target};
 use super::{FITTING, LEAVE, quality};
 use crate::geometry::Point;
 use crate::mesh::{HexMesh, NodeId};
+use crate::monitor::Part;
 use crate::optimize::{
     Evening, Free, Moved, Problem, Star, Weights, even_out, keep_positive, wake, worst_kept,
 };

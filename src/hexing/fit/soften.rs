@@ -13,7 +13,6 @@ use std::collections::BTreeSet;
 
 use super::super::correspondence::{Anchor, Correspondence, CurveFate, Reason};
 use super::holds::{Hold, Holds};
-use super::progress::Part;
 use super::rings::widen;
 use super::target::{OnSolid, Target};
 use super::{FITTING, LEAVE};
@@ -21,6 +20,7 @@ use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexMesh, NodeId};
+use crate::monitor::Part;
 use crate::optimize::{OptimizeOptions, Problem, smooth};
 use crate::solid::{CurveId, SolidModel, SurfaceClass, SurfaceId};
 use crate::{Cancelled, Monitor, parallel};

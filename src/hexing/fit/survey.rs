@@ -206,7 +206,7 @@ fn samples(edge: f64, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<P
     let cube = |p: Point| ((p - origin) / size).to_array().map(|x| x as i32);
     let mut taken = HashSet::new();
     let mut sparse = Vec::new();
-    surface.sample(edge, monitor, &mut |batch| {
+    surface.sample(edge, monitor, &mut |batch, _| {
         sparse.extend(batch.iter().filter(|&&p| taken.insert(cube(p))));
     })?;
     Ok(sparse)

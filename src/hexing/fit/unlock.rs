@@ -7,9 +7,9 @@
 
 use super::FITTING;
 use super::holds::{Hold, Holds};
-use super::progress::Part;
 use super::pull::{Course, pull};
 use super::regions::{Mark, Regions, drawn};
+use crate::monitor::Part;
 use crate::optimize::Problem;
 use crate::{Cancelled, Monitor};
 

@@ -19,7 +19,7 @@ fn regions_count_by_their_volume_in_the_solid_and_their_level() {
         let shape = Shape::Box { min, max, rotation: glam::DQuat::IDENTITY };
         let regions = targets.iter().map(|&target| Region { shape: shape.clone(), target }).collect();
         let options = HexingOptions { edge_length: 0.1, regions, ..HexingOptions::default() };
-        forecast_hexes(&solid, &options, &Silent).unwrap()
+        forecast_hexes(&solid, &options, &Silent).unwrap().hexes
     };
     for (target, levels) in [(Target::Level(2), 2), (Target::Size(0.05), 1), (Target::Size(0.2), 0)] {
         let more = 125.0 * (8_f64.powi(levels) - 1.0);

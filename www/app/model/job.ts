@@ -126,7 +126,7 @@ export class Maker {
     }
     if (job === 'solid') {
       const solid = await this.#solid(input, settings, signal);
-      return { noun: 'hex', cells: solid.hexes ?? 0, exact: false, bytes: solid.bytes ?? 0, levels: null, added: null, solid, idleRegions: [] };
+      return { noun: 'hex', cells: solid.hexes ?? 0, exact: false, bytes: solid.bytes ?? 0, levels: null, added: null, solid, idleRegions: solid.idleRegions };
     }
     const hexes = await this.#hexes(input, settings, { signal });
     const plan = await mesher.planHexes(hexes, { ...toHexOptions(settings, atSurface(input, settings)), signal });
