@@ -11,6 +11,7 @@
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
 //!    octree, and 2 for that. What shows less than half before it is fitted, or lacks some part of the solid, is not fitted
 //!    before that.
+//! 6. Where the best is still such, a sweep that was no choice, and 2 for that: plates and wedges that are thinner than cells.
 //!
 //! A mesh that is too far from the solid is first brought nearer with cells that are fair instead of good (`attempt`), unless
 //! it misses more and a distance is asked for, or none is and many of its cells are poor. Where it is so far that this hardly
@@ -74,7 +75,8 @@ pub(super) fn mesh_body(
     let mut search = Search::new(&site, monitor);
     let first = site.plan(site.choice.kind);
     match search.attempt(first, options.max_hexes) {
-        Err(HexingError::NothingLeft { .. }) => return Ok(search.end()?),
+        // Others may keep what is thinner than its cells.
+        Err(HexingError::NothingLeft { .. }) => {}
         // What may be swept, but not be refined as the options want it.
         Err(HexingError::Background(BackgroundError::Refine(_))) if site.may_be_grid() => {
             search.attempt(site.plan(Background::Grid), options.max_hexes)?;
@@ -100,6 +102,12 @@ pub(super) fn mesh_body(
         search.octree()?;
         if search.waits() {
             search.fit_best()?;
+            search.refine(options.max_hexes)?;
+        }
+    }
+    if search.is_other() && !search.has_tried(Background::Swept) && site.may_be_swept(monitor)? {
+        search.another(site.plan(Background::Swept), options.max_hexes)?;
+        if search.is_on(Background::Swept) {
             search.refine(options.max_hexes)?;
         }
     }
@@ -237,10 +245,13 @@ mod tests {
     use super::super::merit::distance;
     use super::super::report::AttemptReport;
     use super::super::search::Waiting;
+    use glam::DMat3;
+
     use super::*;
     use crate::Silent;
     use crate::geometry::Point;
-    use crate::solid::testing::{moved, solid, voxels};
+    use crate::mesh::PolygonMesh;
+    use crate::solid::testing::{moved, polygons, solid, voxels};
 
     /// A sweep captures its walls, which no grid does, and shows all of the solid but a dimple in the top, be it shallow or so
     /// narrow and deep that no cells of a sweep show it.
@@ -263,6 +274,36 @@ mod tests {
             assert_eq!(is_astray, depth > 1.0);
             assert_eq!(kinds.contains(&(Background::Grid, 1)), is_astray);
         }
+    }
+
+    /// What is kept of a solid with such edges: its background, how far that is from the solid, and what of it was found.
+    fn kept(surface: &PolygonMesh, edge_length: f64) -> (Background, f64, bool) {
+        let options = HexingOptions { edge_length, ..HexingOptions::default() };
+        let Body { best, report } = mesh_body(&solid(surface), &options, &Silent).unwrap();
+        let kept = &report.attempts[best.expect("there is a mesh").number];
+        let features = kept.features.as_ref().unwrap();
+        let shows_all = [features.corners, features.curves, features.surfaces].map(|n| n.captured == n.found);
+        (kept.background, distance(kept), shows_all == [true; 3])
+    }
+
+    /// No cell of a grid lies within a plate that is a twelfth of an edge thick and stands askew; a sweep has a layer as thick.
+    #[test]
+    fn what_is_thinner_than_the_cells_of_a_grid_is_meshed() {
+        let turn = DMat3::from_rotation_z(0.4) * DMat3::from_rotation_x(0.7);
+        let plate = moved(voxels([4, 4, 1], |_| true), |p| turn * (p * Point::new(1.0, 1.0, 0.04)));
+        let (background, apart, shows_all) = kept(&plate, 0.5);
+        assert!(background == Background::Swept && apart < 1e-9 && shows_all, "{background:?} {apart}");
+    }
+
+    /// Nothing but layers that end in its edge shows a wedge of five degrees, though the quads there are poor.
+    #[test]
+    fn a_wedge_is_swept_where_all_else_misses_it() {
+        let back = libm::tan(5.0_f64.to_radians());
+        let ends = [0.0, 1.0].map(|y| [[0.0, y, 0.0], [1.0, y, 0.0], [1.0, y, back]]);
+        let faces = [[0, 1, 2], [5, 4, 3], [0, 3, 4], [0, 4, 1], [1, 4, 5], [1, 5, 2], [2, 5, 3], [2, 3, 0]];
+        let wedge = polygons(ends.as_flattened(), &faces);
+        let (background, apart, shows_all) = kept(&wedge, 0.1);
+        assert!(background == Background::Swept && apart < 0.05 && shows_all, "{background:?} {apart}");
     }
 
     /// Euler numbers of a first attempt on a background of so many hexes, and how many an octree may have then.

@@ -1,17 +1,19 @@
 //! Which background a body gets (section 4), and how it is made for each attempt.
 
+use std::sync::OnceLock;
+
 use glam::DMat3;
 
 use super::background::{
-    AlignedGrid, Background, BackgroundError, Choice, Octree, OctreeMesh, Sweep, SweptScore, Wanted, choose,
-    may_sweep, octree, refined,
+    AlignedGrid, Background, BackgroundError, Choice, Octree, OctreeMesh, Sweep, SweepError, SweptScore,
+    Wanted, choose, may_sweep, octree, refined,
 };
 use super::direction::{DirectionScore, best_frame, principal_directions};
 use super::merit::Taste;
 use super::options::HexingOptions;
-use crate::Monitor;
 use crate::sizing::{Region, Target};
 use crate::solid::SolidModel;
+use crate::{Cancelled, Monitor};
 
 /// A body and the kind of background that suits it.
 pub(super) struct Site<'a> {
@@ -23,6 +25,8 @@ pub(super) struct Site<'a> {
     pub(super) directions: Vec<DirectionScore>,
     axes: DMat3,
     sweep: Option<Sweep>,
+    /// One that was no choice.
+    unlikely_sweep: OnceLock<Option<Sweep>>,
 }
 
 /// How an attempt's background differs from others of its site.
@@ -59,7 +63,16 @@ impl<'a> Site<'a> {
             worst_quad: sweep.worst_quad(),
         });
         let choice = choose(solid, axes, options.background, score, options.curvature.is_some());
-        Ok(Self { solid, options, choice, taste: Taste::of(solid), directions, axes, sweep })
+        Ok(Self {
+            solid,
+            options,
+            choice,
+            taste: Taste::of(solid),
+            directions,
+            axes,
+            sweep,
+            unlikely_sweep: OnceLock::new(),
+        })
     }
 
     /// Was it a choice not to take a grid?
@@ -70,6 +83,24 @@ impl<'a> Site<'a> {
     /// Was it a choice not to take an octree?
     pub(super) fn may_be_octree(&self) -> bool {
         self.options.background == Background::Auto && self.choice.kind != Background::Octree
+    }
+
+    /// May it be swept, though that was no choice? Then it is found out how: nothing tells the thickness of a plate, or the edge of
+    /// a wedge, as layers do that stand in them.
+    pub(super) fn may_be_swept(&self, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
+        let Self { solid, options, .. } = self;
+        if options.background != Background::Auto || solid.is_free_form() {
+            return Ok(false);
+        }
+        if self.sweep.is_none() && self.unlikely_sweep.get().is_none() {
+            let sweep = sweep_along(solid, self.directions.first(), options, monitor)?;
+            self.unlikely_sweep.get_or_init(|| sweep);
+        }
+        Ok(self.sweep().is_some())
+    }
+
+    fn sweep(&self) -> Option<&Sweep> {
+        self.sweep.as_ref().or_else(|| self.unlikely_sweep.get()?.as_ref())
     }
 
     /// A background of this kind, as it is: in an octree details have smaller cells from the beginning.
@@ -112,7 +143,7 @@ impl<'a> Site<'a> {
             regions: &regions,
             in_blocks: plan.in_blocks,
         };
-        match (plan.kind, &self.sweep) {
+        match (plan.kind, self.sweep()) {
             (Background::Swept, Some(sweep)) => {
                 let mesh = sweep.mesh(solid, monitor)?;
                 refined(mesh, solid, edge_length, &wanted, max_hexes, monitor)
@@ -152,18 +183,26 @@ fn swept(
     options: &HexingOptions,
     monitor: &dyn Monitor,
 ) -> Result<Option<Sweep>, BackgroundError> {
-    let is_wanted = options.background == Background::Swept;
-    let Some(best) = directions.first() else {
-        return if is_wanted { Err(BackgroundError::NoDirection) } else { Ok(None) };
-    };
-    if !is_wanted && !may_sweep(solid, axes, best.surface_capture) {
-        return Ok(None);
+    let best = directions.first();
+    if options.background == Background::Swept {
+        let best = best.ok_or(BackgroundError::NoDirection)?;
+        return Ok(Some(Sweep::new(solid, best.direction, options.edge_length, options.max_hexes, monitor)?));
     }
-    match Sweep::new(solid, best.direction, options.edge_length, options.max_hexes, monitor) {
+    let best = best.filter(|best| may_sweep(solid, axes, best.surface_capture));
+    Ok(sweep_along(solid, best, options, monitor)?)
+}
+
+/// The sweep along a direction, if there is one; else there are other backgrounds.
+fn sweep_along(
+    solid: &SolidModel,
+    direction: Option<&DirectionScore>,
+    options: &HexingOptions,
+    monitor: &dyn Monitor,
+) -> Result<Option<Sweep>, Cancelled> {
+    let Some(&DirectionScore { direction, .. }) = direction else { return Ok(None) };
+    match Sweep::new(solid, direction, options.edge_length, options.max_hexes, monitor) {
         Ok(sweep) => Ok(Some(sweep)),
-        Err(error) if is_wanted => Err(error.into()),
-        Err(super::background::SweepError::Cancelled(cancelled)) => Err(cancelled.into()),
-        // There are other backgrounds.
+        Err(SweepError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(None),
     }
 }

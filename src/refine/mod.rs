@@ -20,7 +20,6 @@
 mod conform;
 mod demand;
 mod estimate;
-mod extent;
 pub mod hex;
 mod options;
 mod quad;

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::extent::Extent;
 use crate::forest::BaseError;
+use crate::geometry::Extent;
 use crate::mesh::check::{check_faces, summary};
 use crate::mesh::{FaceId, PolygonMesh, QuadMesh, Tags};
 use crate::sizing::{Region, SizingError};

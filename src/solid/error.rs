@@ -24,9 +24,20 @@ pub enum SolidError {
     /// The faces do not add up or have coordinates that are no numbers.
     #[error("{0}; correct the file")]
     Broken(crate::mesh::Defect),
+    /// The coordinates are too large or too close together for lengths, areas and volumes to be numbers, or have too few digits.
+    #[error(
+        "the surface measures {size:e} and reaches {reach:e} from the origin: coordinates tell no sizes but from 1e-60 to \
+         1e60, and have 16 digits; scale the surface, or move it towards the origin"
+    )]
+    Extent {
+        /// The diagonal of the box around the nodes.
+        size: f64,
+        /// The greatest coordinate, without its sign.
+        reach: f64,
+    },
     /// Edges of one triangle alone.
     #[error(
-        "the surface is open: {edges} edges belong to one face only, the first at {at} of face {face}; close the holes"
+        "the surface is open: {} to one face only, the first at {at} of face {face}; close the holes", belong(*.edges)
     )]
     Open {
         /// How many edges.
@@ -38,8 +49,8 @@ pub enum SolidError {
     },
     /// Edges at which three or more triangles meet.
     #[error(
-        "{edges} edges belong to more than two faces, the first at {at} of the faces {}; \
-         separate the parts that touch there, or unite them", listed(.faces)
+        "{} to more than two faces, the first at {at} of the faces {}; \
+         separate the parts that touch there, or unite them", belong(*.edges), listed(.faces)
     )]
     NonManifold {
         /// How many edges.
@@ -51,8 +62,7 @@ pub enum SolidError {
     },
     /// Parts of the surface go through one another, or lie on one another.
     #[error(
-        "the surface crosses or touches itself in {pairs} pairs of triangles, the first at {at} of the faces {} and {}; \
-         unite the parts, or move them apart", .faces[0], .faces[1]
+        "the surface crosses or touches itself in {}, the first at {at} of {}", counted(*.pairs), who_crosses(*.faces)
     )]
     SelfIntersection {
         /// How many pairs of triangles.
@@ -87,6 +97,23 @@ pub enum SolidError {
     Cancelled(#[from] Cancelled),
 }
 
+fn belong(edges: usize) -> String {
+    if edges == 1 { "1 edge belongs".into() } else { format!("{edges} edges belong") }
+}
+
+fn counted(pairs: usize) -> String {
+    if pairs == 1 { "1 pair of triangles".into() } else { format!("{pairs} pairs of triangles") }
+}
+
+/// The faces, and what to do.
+fn who_crosses([one, other]: [FaceId; 2]) -> String {
+    if one == other {
+        format!("face {one} itself; divide it into simple polygons")
+    } else {
+        format!("the faces {one} and {other}; unite the parts, or move them apart")
+    }
+}
+
 impl SolidError {
     /// A stable name of the kind of error.
     pub fn code(&self) -> &'static str {
@@ -94,6 +121,7 @@ impl SolidError {
             Self::Option { .. } => "option-out-of-range",
             Self::Empty => "surface-empty",
             Self::Broken(_) => "surface-invalid",
+            Self::Extent { .. } => "surface-extent",
             Self::Open { .. } => "surface-open",
             Self::NonManifold { .. } => "surface-non-manifold",
             Self::SelfIntersection { .. } => "surface-self-intersecting",

@@ -102,16 +102,18 @@ impl SolidReport {
     /// What was mended, in words; nothing if the surface was sound.
     pub fn mended(&self) -> Vec<String> {
         let kinds = [
-            (self.close_points, "points welded that were close to others"),
-            (self.degenerate_triangles, "triangles dropped that had a point twice"),
-            (self.duplicate_triangles, "triangles dropped that were there twice"),
-            (self.wall_triangles, "triangles of inner walls dropped"),
-            (self.filled_holes.len(), "holes filled"),
-            (self.turned_triangles, "triangles turned outward"),
-            (self.flipped_triangles, "flat triangles flipped"),
-            (self.split_points, "points split where parts touched"),
+            (self.close_points, "point", "welded that were close to others"),
+            (self.degenerate_triangles, "triangle", "dropped that had a point twice"),
+            (self.duplicate_triangles, "triangle", "dropped that were there twice"),
+            (self.wall_triangles, "triangle", "of inner walls or of sheets without thickness dropped"),
+            (self.filled_holes.len(), "hole", "filled"),
+            (self.turned_triangles, "triangle", "turned outward"),
+            (self.flipped_triangles, "flat triangle", "flipped"),
+            (self.split_points, "point", "split where parts touched"),
         ];
-        kinds.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect()
+        let plural = |count: usize| if count == 1 { "" } else { "s" };
+        let is_some = kinds.iter().filter(|(count, ..)| *count > 0);
+        is_some.map(|&(count, noun, what)| format!("{count} {noun}{} {what}", plural(count))).collect()
     }
 }
 

@@ -37,6 +37,9 @@ pub(super) struct Spoke {
     pub hexes: u32,
 }
 
+/// A node is at a point that is no farther from it than this share of an edge.
+const THERE: f64 = 0.1;
+
 pub(super) struct Boundary {
     /// The mesh's nodes on the boundary, ascending.
     pub nodes: Vec<NodeId>,
@@ -131,6 +134,17 @@ impl Boundary {
                 self.spokes_of(leaf.data).iter().map(|spoke| at.distance(self.points[spoke.to as usize]));
             0.5 * (self.lengths[leaf.data as usize] + lengths.fold(f64::INFINITY, f64::min))
         })
+    }
+
+    /// Is there an edge of the boundary all along from `a` to `b`, as where a layer of hexes is as thick as a plate?
+    pub fn has_edge(&self, a: Point, b: Point) -> bool {
+        let near = |p: Point| {
+            let node = self.tree.nearest_neighbor(p.to_array())?.data;
+            let is_there = self.points[node as usize].distance(p) <= THERE * a.distance(b);
+            is_there.then_some(node)
+        };
+        let Some([a, b]) = near(a).zip(near(b)).map(|(a, b)| [a, b]) else { return false };
+        self.spokes_of(a).iter().any(|spoke| spoke.to == b)
     }
 
     /// The area of a quad along its outward normal.

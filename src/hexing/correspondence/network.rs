@@ -211,14 +211,15 @@ const SHORT_LOOP: f64 = 2.5;
 /// Gives up, shortest first, the curves that are too short for the edges of the boundary.
 pub(super) fn give_up_short(network: &mut Network, boundary: &Boundary) {
     let is_short = |network: &Network, curve: CurveId| {
-        let middle = network.point_along(curve, 0.5 * network.solid.curves()[curve.index()].length);
+        let length = network.solid.curves()[curve.index()].length;
+        let [start, middle, end] = [0.0, 0.5, 1.0].map(|share| network.point_along(curve, share * length));
         let is_arc = network.ends(curve).is_some_and(|[a, b]| a != b);
-        network.length(curve)
-            < if is_arc {
-                SHORT_ARC * boundary.short_length_near(middle)
-            } else {
-                SHORT_LOOP * boundary.length_near(middle)
-            }
+        if is_arc {
+            network.length(curve) < SHORT_ARC * boundary.short_length_near(middle)
+                && !boundary.has_edge(start, end)
+        } else {
+            network.length(curve) < SHORT_LOOP * boundary.length_near(middle)
+        }
     };
     let mut queue: std::collections::BTreeSet<(u64, CurveId)> =
         network.curves().map(|c| (network.length(c).to_bits(), c)).collect();

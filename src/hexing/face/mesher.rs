@@ -36,7 +36,10 @@ pub enum FaceError {
     #[error("the direction has no length, or is not finite; give another one")]
     Direction,
     /// There is nothing to mesh.
-    #[error("the region has no area: its outline encloses nothing; give one with at least one polygon")]
+    #[error(
+        "the region has no area: there are no polygons, or none is left where those that are given twice or cross themselves \
+         cancel out; give polygons that enclose an area"
+    )]
     Empty,
     /// The faces are no polygons; each kind of defect in words.
     #[error("the faces cannot be meshed: {}", .0.join("; "))]

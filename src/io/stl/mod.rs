@@ -14,7 +14,8 @@
 //! ```
 //!
 //! A binary file is 80 free bytes, the number of facets (u32), and 50 bytes a facet: normal and three vertices as f32,
-//! and two bytes that are free; little-endian. Many begin with `solid` too, so the length decides which it is.
+//! and two bytes that are free; little-endian. Many begin with `solid` too, so the length
+//! decides which it is, and where that fits none whether there are zeros in the head.
 //!
 //! Vertices with the same coordinates become one node. Normals are not taken: the order of the vertices says the same.
 //! The name of a solid becomes the tag `object` of its faces.
@@ -35,11 +36,16 @@ pub fn read(bytes: &[u8]) -> Result<Document, ReadError> {
         return binary::read(bytes);
     }
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    if starts_as_ascii(text) {
+    // The number of facets of a binary file, however it begins, has a zero.
+    let is_text = !bytes[..bytes.len().min(binary::HEAD)].contains(&0);
+    if starts_as_ascii(text) && is_text {
         return ascii::read(text);
     }
     if bytes.len() < binary::HEAD {
-        let message = format!("the file begins with {}, not with solid", excerpt(bytes));
+        let message = match bytes {
+            [] => "the file is empty".into(),
+            _ => format!("the file begins with {}, not with solid", excerpt(bytes)),
+        };
         return Err(refuse(Format::Stl, 1, code::NOT_THIS_FORMAT, message));
     }
     binary::read(bytes)

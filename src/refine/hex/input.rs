@@ -4,7 +4,7 @@ use super::bounds::RIDGE_DEGREES;
 use super::labels::{self, group_of, label_of};
 use super::options::HexRefineError;
 use super::sheets::materials_of;
-use crate::geometry::Point;
+use crate::geometry::{Extent, Point};
 use crate::mesh::check::{Defect, summary};
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::four;
@@ -14,7 +14,6 @@ use crate::mesh::{
 };
 use crate::monitor::batches;
 use crate::optimize::{BoundarySurface, FaceKind};
-use crate::refine::extent::Extent;
 use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// The stage that this file reports.

@@ -6,10 +6,9 @@ use super::input::{coincident_nodes, longest_edge, longest_edge_of, oriented, re
 use super::options::{Growth, HexOptions, HexRefineError, Method, RefinedHexes, check_size, validate};
 use super::plan::{Decided, HexPlan};
 use super::trees::Trees;
-use crate::geometry::Point;
+use crate::geometry::{Extent, Point};
 use crate::mesh::{HexMesh, NodeId};
 use crate::refine::Candidates;
-use crate::refine::extent::Extent;
 use crate::refine::targets::{exceeds, first_bad_target};
 use crate::sizing::{SizeField, SizeOptions, SizedElement};
 use crate::{Cancelled, Monitor, Stage, parallel};

@@ -1,8 +1,8 @@
 //! From the polygons of a file to a closed, manifold, outward shell of triangles.
 //!
-//! 1. Polygons are checked and cut into triangles (here).
+//! 1. Polygons are checked and cut into triangles (`cut`).
 //! 2. Points are welded, exactly and then within a tolerance; triangles that lose a corner or lie on another one go
-//!    (`weld`).
+//!    (`weld`, `doubles`).
 //! 3. Small holes are filled (`holes`). Then every edge must have two triangles (`refuse`).
 //! 4. The triangles of each component are made to agree, and then to look outward by the sign of its volume (`orient`).
 //! 5. Where fans of triangles share a point alone, each gets its own (`fans`).
@@ -12,6 +12,8 @@
 //!
 //! What moves, moves by no more than the tolerance.
 
+mod cut;
+mod doubles;
 mod fans;
 mod flat;
 mod holes;
@@ -24,9 +26,8 @@ mod weld;
 use super::error::SolidError;
 use super::options::{SolidOptions, SolidReport};
 use super::shell::{EdgeTable, Shell, Triangles};
-use crate::geometry::{Aabb, triangulate};
-use crate::mesh::check::check_faces;
-use crate::mesh::{FaceId, PolygonMesh};
+use crate::geometry::Aabb;
+use crate::mesh::{FaceId, PolygonMesh, first_of_same};
 use crate::{Cancelled, Monitor, parallel};
 
 /// Points closer than this share of the diagonal of the surface's box are one.
@@ -77,10 +78,11 @@ pub(super) fn import(
     report: &mut SolidReport,
     monitor: &dyn Monitor,
 ) -> Result<Imported, SolidError> {
-    let mut soup = triangles(surface, monitor)?;
+    let first = first_of_same(&surface.positions);
+    let mut soup = cut::triangles(surface, &first, monitor)?;
     let diagonal = Aabb::around(&surface.positions).diagonal();
     let tolerance = TOLERANCE * diagonal;
-    weld::weld(&mut soup, tolerance, report, monitor)?;
+    weld::weld(&mut soup, &first, tolerance, report, monitor)?;
     if soup.face_of.is_empty() {
         let face = FaceId(0);
         return Err(SolidError::NoVolume { at: surface.positions[surface.face(0)[0].index()], face });
@@ -120,32 +122,4 @@ pub(super) fn import(
 fn shell_of(soup: &mut Soup, monitor: &dyn Monitor) -> Result<Shell, Cancelled> {
     let table = EdgeTable::new(&soup.mesh, monitor)?;
     Ok(Shell::new(std::mem::take(&mut soup.mesh), &table))
-}
-
-fn triangles(surface: &PolygonMesh, monitor: &dyn Monitor) -> Result<Soup, SolidError> {
-    use crate::mesh::Defect::{BrokenOffsets, NodeOutOfRange, NotFinite, TooFewNodes};
-    if surface.face_count() == 0 {
-        return Err(SolidError::Empty);
-    }
-    let broken = check_faces(surface, monitor)?.into_iter().find(|defect| {
-        matches!(defect, BrokenOffsets { .. } | NodeOutOfRange { .. } | NotFinite { .. } | TooFewNodes { .. })
-    });
-    if let Some(defect) = broken {
-        return Err(SolidError::Broken(defect));
-    }
-    let (mut triangles, mut face_of) = (Vec::new(), Vec::new());
-    let (mut corners, mut local) = (Vec::new(), Vec::new());
-    for batch in crate::monitor::batches(surface.face_count(), monitor) {
-        for f in batch? {
-            let nodes = surface.face(f);
-            corners.clear();
-            corners.extend(nodes.iter().map(|n| surface.positions[n.index()]));
-            local.clear();
-            triangulate(&corners, &mut local);
-            triangles.extend(local.iter().map(|t| t.map(|i| nodes[i as usize].0)));
-            face_of.resize(triangles.len(), FaceId::new(f));
-        }
-    }
-    let vertex_of = (0..surface.positions.len() as u32).collect();
-    Ok(Soup { mesh: Triangles { points: surface.positions.clone(), triangles }, face_of, vertex_of })
 }

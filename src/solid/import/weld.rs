@@ -1,8 +1,8 @@
 //! Makes one what is in one place.
 
 use super::Soup;
+use super::doubles::{Doubles, drop_doubles};
 use crate::geometry::{Aabb, Point};
-use crate::mesh::first_of_same;
 use crate::mesh::topology::Sets;
 use crate::parallel::greatest_first;
 use crate::solid::options::SolidReport;
@@ -12,31 +12,31 @@ use crate::{Cancelled, Monitor};
 /// A unit direction that no model is aligned with.
 const ASKEW: Point = Point::new(0.534_522_483_824_849, 0.267_261_241_912_424, 0.801_783_725_737_273);
 
-/// Welds points, exactly and then within `tolerance`, and drops the triangles that have no area left by this or lie on
-/// others.
+/// Welds points, exactly as `first` says which are the same, and then within `tolerance`, and drops the triangles that have no
+/// area left by this or lie on others.
 pub(super) fn weld(
     soup: &mut Soup,
+    first: &[u32],
     tolerance: f64,
     report: &mut SolidReport,
     monitor: &dyn Monitor,
 ) -> Result<(), Cancelled> {
-    report.welded_points = weld_exactly(soup);
+    report.welded_points = (0..).zip(first).filter(|&(v, &first)| first != v).count();
+    renumber(soup, first);
     monitor.proceed()?;
     report.close_points = weld_close(soup, tolerance);
     monitor.proceed()?;
     let triangles = &soup.mesh.triangles;
     let keeps: Vec<bool> = triangles.iter().map(|&[a, b, c]| a != b && b != c && c != a).collect();
     report.degenerate_triangles = soup.retain(|t| keeps[t]);
-    (report.duplicate_triangles, report.wall_triangles) = drop_duplicates(soup);
+    let Doubles { duplicates, walls } = drop_doubles(soup);
+    (report.duplicate_triangles, report.wall_triangles) = (duplicates, walls);
+    if report.degenerate_triangles + duplicates + walls > 0 {
+        // Points of these alone go too.
+        let all: Vec<u32> = (0..soup.mesh.points.len() as u32).collect();
+        renumber(soup, &all);
+    }
     Ok(())
-}
-
-/// Makes points with the same coordinates one. Returns how many were one with another.
-fn weld_exactly(soup: &mut Soup) -> usize {
-    let first = first_of_same(&soup.mesh.points);
-    let welded = first.iter().zip(0..).filter(|&(&first, v)| first != v).count();
-    renumber(soup, &first);
-    welded
 }
 
 /// Makes points that are less than `tolerance` apart one. Returns how many were one with another.
@@ -79,35 +79,4 @@ fn renumber(soup: &mut Soup, stands_for: &[u32]) {
     for v in soup.vertex_of.iter_mut().filter(|v| **v != NONE) {
         *v = new[stands_for[*v as usize] as usize];
     }
-}
-
-/// Drops triangles on other triangles. Of those that look the same way one stays; two that look opposite ways are a wall
-/// with solid on both sides, or a sheet without thickness, and both go. Returns how many went for either reason.
-fn drop_duplicates(soup: &mut Soup) -> (usize, usize) {
-    // The vertices in ascending order, and whether sorting them turned the triangle around.
-    let key = |(t, &[a, b, c]): (usize, &[u32; 3])| {
-        let mut sorted = [a, b, c];
-        sorted.sort_unstable();
-        let is_odd = [[a, b, c], [b, c, a], [c, a, b]].iter().all(|turn| *turn != sorted);
-        (sorted, is_odd, t as u32)
-    };
-    let mut keys: Vec<_> = soup.mesh.triangles.iter().enumerate().map(key).collect();
-    crate::parallel::sort(&mut keys);
-    let (mut duplicates, mut walls) = (0, 0);
-    let mut keeps = vec![true; keys.len()];
-    for same in keys.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
-        let even = same.iter().filter(|k| !k.1).count();
-        let is_wall = even > 0 && even < same.len();
-        // The first of those that look the same way.
-        same.iter().skip(usize::from(!is_wall)).for_each(|k| keeps[k.2 as usize] = false);
-        if is_wall {
-            walls += same.len();
-        } else {
-            duplicates += same.len() - 1;
-        }
-    }
-    if duplicates + walls > 0 {
-        soup.retain(|t| keeps[t]);
-    }
-    (duplicates, walls)
 }

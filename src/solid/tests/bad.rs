@@ -44,10 +44,23 @@ fn numbers_that_are_none() {
 }
 
 #[test]
+fn coordinates_that_tell_no_sizes() {
+    for (scale, by) in [(1e-100, 0.0), (1e100, 0.0), (4.0, 1e16), (1e50, 1e61)] {
+        let cube = moved(cuboid([1, 1, 1]), |p| p * scale + by);
+        let error = SolidModel::new(&cube, &SolidOptions::default(), &Silent).map(|_| ()).unwrap_err();
+        assert!(matches!(error, SolidError::Extent { .. }), "{error}");
+    }
+    for (scale, by) in [(1e-50, 0.0), (1e50, 0.0), (1.0, 1e9)] {
+        let (solid, _) = made(&moved(cuboid([1, 1, 1]), |p| p * scale + by), &SolidOptions::default());
+        assert!((solid.volume() / scale.powi(3) - 1.0).abs() < 1e-6);
+    }
+}
+
+#[test]
 fn parts_that_touch_at_an_edge_or_a_wall_of_another_kind() {
     check_refused(
         &voxels([2, 2, 1], |[x, y, _]| x == y),
-        "1 edges belong to more than two faces, the first at [1, 1, 0.5] of the faces 1, 3, 6, 8; \
+        "1 edge belongs to more than two faces, the first at [1, 1, 0.5] of the faces 1, 3, 6, 8; \
          separate the parts that touch there, or unite them",
     );
     let beside = moved(cuboid([1, 1, 1]), |p| p * 0.5 + Point::new(1.0, 0.2, 0.3));
@@ -152,6 +165,61 @@ fn faces_given_twice_and_walls_between_parts_go() {
     let (solid, report) = made(&polygons(&points, &[above, below].concat()), &SolidOptions::default());
     assert_eq!((report.duplicate_triangles, report.wall_triangles, report.bodies), (0, 2, 1));
     assert!((solid.volume() - 1.0 / 3.0).abs() < 1e-15 && solid.contains(Point::new(0.1, 0.1, 0.0)));
+}
+
+/// A cube, and before its faces some more, with points of their own.
+fn after(points: &[[f64; 3]], faces: &[&[u32]]) -> PolygonMesh {
+    let mut mesh = PolygonMesh::default();
+    mesh.positions.extend(points.iter().map(|&p| Point::from(p)));
+    faces.iter().for_each(|face| mesh.push_face(face.iter().map(|&n| NodeId(n))));
+    both(mesh, &cuboid([1, 1, 1]))
+}
+
+/// Faces that go may be the only ones at their points.
+#[test]
+fn points_of_faces_that_go_go_too() {
+    let fin = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.5]];
+    let sheet = fin.map(|[x, y, z]| [x - 3.0, y, z]);
+    for (points, faces, degenerate, walls) in [
+        (fin, &[&[0, 0, 2][..]][..], 1, 0),
+        (sheet, &[&[2, 0, 2], &[1, 1, 0]], 2, 0),
+        (fin, &[&[0, 1, 2], &[2, 1, 0]], 0, 2),
+        (sheet, &[&[0, 1, 2], &[1, 0, 2]], 0, 2),
+    ] {
+        let (solid, report) = made(&after(&points, faces), &SolidOptions::default());
+        assert_eq!((report.degenerate_triangles, report.wall_triangles), (degenerate, walls));
+        assert_eq!((report.points, solid.points().len(), solid.volume()), (8, 8, 1.0));
+    }
+}
+
+/// In whatever order its corners are given, and whichever way round.
+#[test]
+fn faces_given_twice_otherwise_go() {
+    let cube = cuboid([1, 1, 1]);
+    let with = |copies: &[Vec<NodeId>]| {
+        let mut mesh = cube.clone();
+        copies.iter().for_each(|face| mesh.push_face(face.iter().copied()));
+        mesh
+    };
+    for face in 0..6 {
+        for start in 0..4 {
+            let mut copy = cube.face(face).to_vec();
+            copy.rotate_left(start);
+            let back: Vec<NodeId> = copy.iter().rev().copied().collect();
+            for copy in [copy, back] {
+                let (solid, report) = made(&with(std::slice::from_ref(&copy)), &SolidOptions::default());
+                assert_eq!((report.duplicate_triangles, report.wall_triangles), (2, 0), "{copy:?}");
+                assert_eq!((report.triangles, solid.volume()), (12, 1.0));
+            }
+        }
+    }
+    // All of it, turned, as for both sides of the surface.
+    let back: Vec<Vec<NodeId>> = cube.faces().map(|face| face.iter().rev().copied().collect()).collect();
+    let (solid, report) = made(&with(&back), &SolidOptions::default());
+    assert_eq!((report.duplicate_triangles, report.triangles, solid.volume()), (12, 12, 1.0));
+    // Two of one corner's faces, turned, whose common edge has four triangles of which two go.
+    let (_, report) = made(&with(&back[..2]), &SolidOptions::default());
+    assert_eq!((report.duplicate_triangles, report.wall_triangles), (4, 0));
 }
 
 #[test]

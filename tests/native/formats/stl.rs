@@ -111,13 +111,18 @@ fn what_is_wrong_is_told_with_its_place() {
     check_text("endsolid a part\n", "", "truncated", 30, "facet or endsolid");
     check_text("facet normal", "triangle", "syntax", 2, "'triangle'");
     check(read(b"solid nothing\nendsolid"), "no-cells", None, "no facets");
-    check(read(b""), "not-this-format", Some(1), "not with solid");
+    check(read(b""), "not-this-format", Some(1), "the file is empty");
+    check(read(b"solit"), "not-this-format", Some(1), "'solit', not with solid");
 
     let mut bytes = binary(&TETRAHEDRON);
     bytes[84 + 50 + 12 + 24..][..4].copy_from_slice(&f32::INFINITY.to_le_bytes());
     check(read(&bytes), "coordinate-not-finite", None, "byte 170: vertex 2 of facet 1");
     let mut bytes = binary(&TETRAHEDRON);
-    bytes[..5].fill(b' ');
     bytes[83] = 0xFF;
     check(read(&bytes), "truncated", None, "(byte 80) is 4278190084");
+    // Whatever its head says: cut short, and with something after its facets.
+    let bytes = binary(&TETRAHEDRON);
+    check(read(&bytes[..bytes.len() - 1]), "truncated", None, "(byte 80) is 4");
+    let whole = read(&bytes).unwrap();
+    assert_eq!(surface(read(&[&bytes[..], b"more"].concat()).unwrap()), surface(whole));
 }

@@ -10,6 +10,7 @@ use hexmill::mesh::{Distances, Quads, Triangles, Volumes};
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::files::{check_outputs, format_to_read, load};
+use super::making::use_threads;
 use super::mesh_report::{MeshReport, Topology, quality_table};
 use super::progress::Progress;
 use super::region::{load_triangles, triangles_of};
@@ -20,15 +21,16 @@ use super::words::counted;
 /// Reads a mesh, looks it over and tells; refuses a mesh that does not conform.
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     format_to_read(&args.mesh)?;
+    args.working.threads.map_or(Ok(()), use_threads)?;
     let surface = args.surface.as_deref().map(|path| ("--surface", path));
     let inputs: Vec<_> = std::iter::once(("the mesh", args.mesh.as_path())).chain(surface).collect();
-    let outputs: Vec<_> = args.report.iter().map(|path| ("--report", path.as_path())).collect();
+    let outputs: Vec<_> = args.working.report.iter().map(|path| ("--report", path.as_path())).collect();
     check_outputs(&inputs, &outputs)?;
     let progress = Progress::new(quiet);
     let mut loaded = progress.stage("read", || load(&args.mesh))?;
     loaded.warn_of_dropped(quiet);
     let document = loaded.take_document();
-    let mut mesh = progress.stage("measure", || MeshReport::of(&document, 0));
+    let mut mesh = progress.stage("measure", || MeshReport::of(&document, None));
     progress.stage("check", || mesh.check(&document.mesh));
     let mut report = Report::new("check", InputReport::new(&loaded, mesh.counts), mesh);
     report.distance = match &args.surface {
@@ -41,7 +43,7 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     };
     (report.stages, report.seconds) = progress.finish();
     report.peak_memory_bytes = peak_memory_bytes();
-    args.report.as_deref().map_or(Ok(()), |path| report.save(path))?;
+    args.working.report.as_deref().map_or(Ok(()), |path| report.save(path))?;
     if !quiet {
         print(&in_words(args, &report))?;
     }

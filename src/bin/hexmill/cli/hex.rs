@@ -52,7 +52,7 @@ pub(crate) fn run(args: &HexArgs, quiet: bool) -> Result<(), Failure> {
     let HexedSolid { mesh, second_order, report: work, .. } = hexed;
 
     let document = Document { second_order, ..Document::from(mesh) };
-    let made = Made { command: "hex", input: (&loaded, before), document: &document, capped: 0 };
+    let made = Made { command: "hex", input: (&loaded, before), document: &document, capped: None };
     let idle_regions = idle.iter().map(|&k| args.regions[k as usize].text.clone()).collect();
     let report = args.making.write(&made, format, &progress, quiet)?;
     let report = Report { options: Some(told), hexing: Some(work), idle_regions, ..report };
@@ -134,6 +134,14 @@ fn work_in_words(work: &HexingReport) -> Vec<String> {
     if !mended.is_empty() {
         lines.push(format!("mended: {}", mended.join(", ")));
     }
+    if work.solid.unmatched_edges > 0 {
+        let unmatched = counted(
+            work.solid.unmatched_edges,
+            "edge of the file's lines is none of the surface, and no feature",
+            "edges of the file's lines are none of the surface, and no features",
+        );
+        lines.push(unmatched);
+    }
     let kinds = [("corners", features.corners), ("curves", features.curves), ("surfaces", features.surfaces)];
     let captured = kinds.map(|(kind, n)| format!("{} of {} {kind}", n.captured, n.found)).join(", ");
     lines.push(format!("captured {captured}"));
@@ -172,7 +180,9 @@ fn work_in_words(work: &HexingReport) -> Vec<String> {
     lines.push(format!("distance to the solid: {}", distance.mesh_to_surface.in_words()));
     lines.push(format!("distance from the solid: {}", distance.surface_to_mesh.in_words()));
     if let Some(asked) = result.max_distance.filter(|_| result.is_too_far()) {
-        lines.push(format!("that is more than the {asked} asked for: lower the edge length"));
+        lines.push(format!(
+            "that is more than the {asked} asked for: lower the edge length, or raise --max-levels"
+        ));
     }
     if let Some(SecondOrderReport { nodes, on_solid, yielded, .. }) = work.second_order {
         lines.push(format!(

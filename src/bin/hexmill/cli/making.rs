@@ -18,8 +18,8 @@ pub(super) struct Made<'a> {
     /// The file that the mesh was made of, and what was in it.
     pub(super) input: (&'a Loaded, Counts),
     pub(super) document: &'a Document,
-    /// Elements that are larger than asked for.
-    pub(super) capped: usize,
+    /// Elements that are larger than asked for, where levels are.
+    pub(super) capped: Option<usize>,
 }
 
 impl Making {

@@ -92,7 +92,9 @@ pub(crate) struct MeshReport {
     pub(crate) counts: Counts,
     pub(crate) hash: MeshHash,
     pub(crate) levels: Vec<LevelCount>,
-    pub(crate) capped: usize,
+    /// Elements that are larger than asked for, where levels are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) capped: Option<usize>,
     pub(crate) quality: Option<Quality>,
     /// Of hexes.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -148,7 +150,7 @@ impl Defects {
 
 impl MeshReport {
     /// Measures the mesh of a document. Quality is that of its quads or hexes.
-    pub(crate) fn of(document: &Document, capped: usize) -> Self {
+    pub(crate) fn of(document: &Document, capped: Option<usize>) -> Self {
         let (counts, hash, quality, volume) = match &document.mesh {
             AnyMesh::Polygons(mesh) => {
                 let quality = quad_quality(&quads_of(mesh)).report().map(Quality::Quads);

@@ -31,7 +31,8 @@ pub(crate) fn run(args: &QuadArgs, quiet: bool) -> Result<(), Failure> {
         .map_err(|e| Failure::refused(e.code(), format!("{}: {e}", args.input.display())))?;
     drop(faces);
 
-    let made = Made { command: "quad", input: (&loaded, before), document: &Document::from(mesh), capped: 0 };
+    let made =
+        Made { command: "quad", input: (&loaded, before), document: &Document::from(mesh), capped: None };
     let RegionOptions { edge_length, max_quads } = options;
     let face = FaceReport { edge_length, max_quads, off_curve, dropped_polylines: dropped };
     let report = Report { face: Some(face), ..args.making.write(&made, format, &progress, quiet)? };

@@ -54,7 +54,8 @@ pub(crate) fn run(args: &RefineArgs, quiet: bool) -> Result<(), Failure> {
     };
     let Refined { before, document, capped, options, work, dropped, idle_regions } = refined?;
 
-    let made = Made { command: "refine", input: (&loaded, before), document: &document, capped };
+    let made =
+        Made { command: "refine", input: (&loaded, before), document: &document, capped: Some(capped) };
     let report = making.write(&made, format, &progress, quiet)?;
     let (options, dropped_features) = (Some(options), dropped);
     let report = Report { options, refinement: work, dropped_features, idle_regions, ..report };
@@ -79,10 +80,10 @@ fn in_words(path: &Path, report: &Report) -> String {
         mesh.levels.iter().map(|count| format!("{} of level {}", count.cells, count.level)).collect();
     let mut lines =
         vec![format!("{}: {}", path.display(), mesh.counts.in_words()), format!("  {}", levels.join(", "))];
-    if mesh.capped > 0 {
+    if let Some(capped) = mesh.capped.filter(|&capped| capped > 0) {
         lines.push(format!(
             "  {} larger than asked for: raise --max-levels, now {}",
-            counted(mesh.capped, "element is", "elements are"),
+            counted(capped, "element is", "elements are"),
             report.options.as_ref().map_or(0, OptionsReport::max_levels)
         ));
     }

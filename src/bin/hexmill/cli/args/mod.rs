@@ -154,7 +154,8 @@ pub(crate) struct HexArgs {
     #[arg(long, short = 'e', value_name = "L", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) edge_length: f64,
 
-    /// Where edges are to be shorter, as KIND:NUMBERS:h=SIZE or KIND:NUMBERS:level=N; may be given many times
+    /// Where edges are to be shorter, as KIND:NUMBERS:h=SIZE or KIND:NUMBERS:level=N; may be given many times;
+    /// with --background octree levels count from twice the edge length
     #[arg(long = "region", short = 'r', value_name = "REGION", value_parser = super::region::parse)]
     pub(crate) regions: Vec<RegionArg>,
 
@@ -170,7 +171,7 @@ pub(crate) struct HexArgs {
     #[arg(long, value_name = "DEG", value_parser = feature_angle, allow_negative_numbers = true, default_value_t = 35.0)]
     pub(crate) feature_angle: f64,
 
-    /// How far mesh and solid may be from each other before hexes there are made smaller
+    /// How far mesh and solid may be from each other before hexes there are made smaller, by --max-levels at most
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) max_distance: Option<f64>,
 
@@ -268,9 +269,8 @@ pub(crate) struct CheckArgs {
     #[arg(long, value_name = "SURFACE")]
     pub(crate) surface: Option<PathBuf>,
 
-    /// Where to write everything found as JSON (see docs/report.md)
-    #[arg(long, value_name = "FILE")]
-    pub(crate) report: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) working: Working,
 }
 
 /// `hexmill convert`.

@@ -1,6 +1,6 @@
 //! How large a mesh is and how far from the origin: whether its coordinates can be reckoned with, and divided so often.
 
-use crate::geometry::{Aabb, Point};
+use super::{Aabb, Point};
 
 /// The largest coordinate, and the inverse of the smallest extent: a product of four lengths stays a number.
 const LARGEST: f64 = 1e60;
@@ -10,7 +10,7 @@ const LEAST_STEPS: f64 = 64.0;
 
 /// The size of a mesh and its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Extent {
+pub(crate) struct Extent {
     /// The diagonal of the box around the nodes.
     pub size: f64,
     /// The greatest coordinate, without its sign.
