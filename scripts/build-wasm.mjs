@@ -29,11 +29,13 @@ const OUT = join(root, 'www', 'wasm');
 /** 2 GiB, the most shared memory that every browser gives. */
 const MAX_SHARED_MEMORY = 2147483648;
 
-// Atomics in std need std built anew; wasm-bindgen reads the exported symbols to give each thread its
-// own storage. RUSTC_BOOTSTRAP lets the pinned stable toolchain take -Z build-std.
+// A panic tells its file and line: with its column each place where one may be would be another, which is 6 KB compressed.
+const LOCATIONS = '-Z location-detail=file,line';
+
+// Atomics in std need std built anew; wasm-bindgen reads the exported symbols to give each thread its own storage.
 const THREADS_FLAGS = [
   '-C target-feature=+atomics,+bulk-memory,+mutable-globals,+simd128',
-  '-Z location-detail=file,line',
+  LOCATIONS,
   '-C link-arg=--shared-memory',
   '-C link-arg=--import-memory',
   `-C link-arg=--max-memory=${MAX_SHARED_MEMORY}`,
@@ -71,13 +73,16 @@ const SMALL = {
   binaryen: ['--one-caller-inline-max-function-size', '0', '--flexible-inline-max-function-size', '0'],
 };
 
-const ON_ONE_THREAD = { profile: 'web-mesher', optimize: OPTIMIZED };
+// RUSTC_BOOTSTRAP lets the pinned stable toolchain take what begins with -Z.
+const withFlags = (flags) => ({ RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags });
+
+const ON_ONE_THREAD = { profile: 'web-mesher', optimize: OPTIMIZED, env: withFlags(`-C target-feature=+simd128 ${LOCATIONS}`) };
 
 const ON_A_POOL = {
   profile: 'web-mesher',
   optimize: [...OPTIMIZED, '--enable-threads'],
   cargo: ['-Z', 'build-std=std,panic_abort'],
-  env: { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: THREADS_FLAGS },
+  env: withFlags(THREADS_FLAGS),
 };
 
 const FLAVOURS = [

@@ -8,6 +8,7 @@ mod across;
 pub mod background;
 pub mod core;
 pub mod correspondence;
+mod crossings;
 pub mod direction;
 mod extent;
 pub mod face;

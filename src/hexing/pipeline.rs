@@ -14,6 +14,7 @@ use std::borrow::Borrow;
 
 use super::background::{BackgroundError, check_size};
 use super::body::{Best, Body, mesh_body};
+use super::crossings::crossing_surfaces;
 use super::ground::coarsest;
 use super::groups::{body_tags, sides_of, surface_groups};
 use super::options::{HexingError, HexingOptions, validate};
@@ -117,10 +118,11 @@ fn hexed(
             whole.add(body, &alone, ids_of(solid, body), mesh_body(&alone, options, monitor)?, monitor)?;
         }
     }
-    let Whole { mut mesh, faces, body_of, bodies, result, second_order } = whole;
+    let Whole { mut mesh, faces, body_of, bodies, mut result, second_order } = whole;
     if mesh.hexes.is_empty() {
         return Err(HexingError::NothingLeft { edge_length: options.edge_length });
     }
+    result.crossings = crossing_surfaces(&mesh, &faces, solid.diagonal(), monitor)?;
     mesh.groups =
         surface_groups(&sides_of(&mesh, &faces), &found.surface_groups).expect("sides are ascending");
     if bodies.len() > 1 {

@@ -113,6 +113,8 @@ pub struct ResultReport {
     pub solid_euler: i64,
     /// Bodies that are not in the mesh, since no cell lies within them.
     pub lost_bodies: Vec<LostFeature>,
+    /// Surfaces of which faces of the mesh go through others: with a place, and the square root of the area of these faces.
+    pub crossings: Vec<LostFeature>,
     /// What became of the features of those that are.
     pub features: FeatureReport,
     /// Hexes of the mesh.
@@ -237,6 +239,7 @@ impl ResultReport {
             euler: 0,
             solid_euler: 0,
             lost_bodies: Vec::new(),
+            crossings: Vec::new(),
             features: FeatureReport::default(),
             hexes: 0,
             worst: f64::INFINITY,

@@ -1,6 +1,7 @@
 //! Meshes: ids, structure-of-arrays meshes, topology, checks, quality.
 
 pub mod check;
+mod crossing;
 mod distance;
 mod face_groups;
 mod faces;
@@ -21,6 +22,7 @@ mod volume;
 mod weld;
 
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
+pub(crate) use crossing::crossings;
 pub(crate) use distance::farthest_from_quads;
 pub use distance::{Distance, Distances, distances_of_hexes};
 pub use face_groups::FaceGroups;

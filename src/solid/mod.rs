@@ -18,7 +18,6 @@
 //! ```
 
 mod class;
-mod crossing;
 mod curves;
 mod entities;
 mod error;

@@ -1,6 +1,5 @@
 //! The solid and what can be asked of it.
 
-use super::crossing::{Crossing, crossings};
 use super::curves::{CurveGraph, curve_graph};
 use super::entities::{Corner, Curve, CurveId, Surface, SurfaceClass, SurfaceId};
 use super::error::SolidError;
@@ -11,7 +10,7 @@ use super::search::{CurveFoot, CurveSearch, Foot, Sides, TriangleSearch};
 use super::shell::Shell;
 use super::surfaces::{flood, groups_of_file, surfaces};
 use crate::geometry::{Aabb, Point, area_vector};
-use crate::mesh::{FaceId, PolygonMesh};
+use crate::mesh::{FaceId, PolygonMesh, crossings};
 use crate::{Cancelled, Monitor, Stage, parallel};
 
 /// More than this share of the boundary of a free form is neither planar nor cylindrical.
@@ -300,8 +299,8 @@ fn refuse_crossings(
     tolerance: f64,
     monitor: &dyn Monitor,
 ) -> Result<(), SolidError> {
-    let all = crossings(shell, tolerance, monitor)?;
-    let Some(&Crossing { triangles, at }) = all.first() else { return Ok(()) };
-    let faces = triangles.map(|t| face_of[t as usize]);
-    Err(SolidError::SelfIntersection { pairs: all.len(), at, faces })
+    let all = crossings(&shell.mesh.points, &shell.mesh.triangles, tolerance, monitor)?;
+    let Some(first) = all.first() else { return Ok(()) };
+    let faces = first.triangles.map(|t| face_of[t as usize]);
+    Err(SolidError::SelfIntersection { pairs: all.len(), at: first.at, faces })
 }

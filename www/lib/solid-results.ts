@@ -198,6 +198,8 @@ export interface SolidResult {
   solidEuler: number;
   /** Bodies that are too thin for any hex, and not in the mesh. */
   lostBodies: LostFeature[];
+  /** Surfaces of which faces of the mesh go through others, with a place of each: hexes there reach into each other. */
+  crossings: LostFeature[];
   features: FeatureReport;
   hexes: number;
   /** The least scaled Jacobian. */

@@ -8,7 +8,7 @@ use crate::mesh::{FaceId, NodeId, PolygonMesh};
 use crate::monitor::batches;
 use crate::parallel;
 use crate::solid::error::SolidError;
-use crate::solid::shell::Triangles;
+use crate::solid::shell::{NONE, Triangles};
 
 /// The triangles of the polygons of a surface that is sound; a polygon that is there again is cut along the same diagonals. `first`
 /// tells for each node the first in its place.
@@ -34,12 +34,14 @@ pub(super) fn triangles(
         return Err(SolidError::Extent { size, reach });
     }
     let again = given_again(surface, first);
+    let mut of_face = vec![NONE; if again.is_empty() { 0 } else { surface.face_count() }];
+    (0..).zip(&again).for_each(|(k, again)| of_face[again.face] = k);
     monitor.proceed()?;
     let (mut triangles, mut face_of) = (Vec::new(), Vec::new());
     let (mut corners, mut local) = (Vec::new(), Vec::new());
     for batch in batches(surface.face_count(), monitor) {
         for f in batch? {
-            let again = again.binary_search_by_key(&f, |again| again.face).map(|k| &again[k]).ok();
+            let again = of_face.get(f).and_then(|&k| again.get(k as usize));
             let shown = again.map_or(f, |again| again.shown);
             corners.clear();
             corners.extend(surface.face(shown).iter().map(|n| surface.positions[n.index()]));
@@ -78,7 +80,7 @@ impl Again {
     }
 }
 
-/// The polygons of four corners and more that are there again, by their numbers.
+/// The polygons of four corners and more that are there again.
 fn given_again(surface: &PolygonMesh, first: &[u32]) -> Vec<Again> {
     // Few that differ have the same four least corners.
     let key = |f: usize| {
@@ -89,17 +91,17 @@ fn given_again(surface: &PolygonMesh, first: &[u32]) -> Vec<Again> {
                 least.sort_unstable();
             }
         }
-        (least, f as u32)
+        let [a, b, c, d] = least.map(u64::from);
+        ([a << 32 | b, c << 32 | d, 0], f as u32)
     };
     let faces = 0..surface.face_count();
-    let mut keys: Vec<([u32; 4], u32)> = faces.filter(|&f| surface.face(f).len() > 3).map(key).collect();
+    let mut keys: Vec<([u64; 3], u32)> = faces.filter(|&f| surface.face(f).len() > 3).map(key).collect();
     parallel::sort(&mut keys);
     let mut again = Vec::new();
     for same in keys.chunk_by(|a, b| a.0 == b.0) {
         let others = same[1..].iter().map(|key| key.1 as usize);
         again.extend(others.filter_map(|face| like(surface, first, same[0].1 as usize, face)));
     }
-    again.sort_unstable_by_key(|again| again.face);
     again
 }
 

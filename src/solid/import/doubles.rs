@@ -18,22 +18,31 @@ pub(super) struct Doubles {
     pub walls: usize,
 }
 
-/// A triangle: its vertices in ascending order, whether that turned it around, and its number.
-type Key = ([u32; 3], bool, u32);
+/// A triangle: its vertices in ascending order, the last one twice, and one more if the order turned it around; and its number.
+type Key = ([u64; 3], u32);
+
+fn is_odd(key: &Key) -> bool {
+    key.0[2] % 2 == 1
+}
+
+fn vertices(&([a, b, c], _): &Key) -> [u32; 3] {
+    [a, b, c / 2].map(|v| v as u32)
+}
 
 /// Drops triangles on other triangles.
 pub(super) fn drop_doubles(soup: &mut Soup) -> Doubles {
     let mut keys: Vec<Key> = (0..).zip(&soup.mesh.triangles).map(key).collect();
     parallel::sort(&mut keys);
-    let is_wall = |same: &[Key]| same.iter().any(|k| k.1 != same[0].1);
-    let all: Vec<&[Key]> = keys.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1).collect();
+    let is_wall = |same: &[Key]| same.iter().any(|k| is_odd(k) != is_odd(&same[0]));
+    let same = keys.chunk_by(|a, b| vertices(a) == vertices(b));
+    let all: Vec<&[Key]> = same.filter(|same| same.len() > 1).collect();
     let mut keeps = vec![true; keys.len()];
-    all.iter().flat_map(|same| *same).for_each(|k| keeps[k.2 as usize] = false);
+    all.iter().flat_map(|same| *same).for_each(|k| keeps[k.1 as usize] = false);
     let (walls, others): (Vec<&[Key]>, Vec<&[Key]>) = all.into_iter().partition(|same| is_wall(same));
-    others.iter().for_each(|same| keeps[same[0].2 as usize] = true);
+    others.iter().for_each(|same| keeps[same[0].1 as usize] = true);
     let stays = Walls::new(&walls, soup, &keeps).decided();
     for (same, _) in walls.iter().zip(&stays).filter(|(_, stays)| **stays) {
-        let first = same.iter().map(|k| k.2).min().expect("there are two or more");
+        let first = same.iter().map(|k| k.1).min().expect("there are two or more");
         keeps[first as usize] = true;
     }
     let walls = walls.iter().zip(&stays).filter(|(_, stays)| !**stays).map(|(same, _)| same.len()).sum();
@@ -45,14 +54,13 @@ fn key((t, &[a, b, c]): (u32, &[u32; 3])) -> Key {
     let mut sorted = [a, b, c];
     sorted.sort_unstable();
     let is_odd = [[a, b, c], [b, c, a], [c, a, b]].iter().all(|turn| *turn != sorted);
-    (sorted, is_odd, t)
+    let [a, b, c] = sorted.map(u64::from);
+    ([a, b, 2 * c + u64::from(is_odd)], t)
 }
 
-/// An edge by its vertices, ascending.
-type Edge = [u32; 2];
-
-fn edges([a, b, c]: [u32; 3]) -> [Edge; 3] {
-    [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
+/// The edges of a triangle, by their vertices.
+fn edges([a, b, c]: [u32; 3]) -> [u64; 3] {
+    [[a, b], [b, c], [c, a]].map(|[a, b]| u64::from(a.min(b)) << 32 | u64::from(a.max(b)))
 }
 
 /// Triangles that may stay or go, and their edges.
@@ -69,16 +77,16 @@ struct Walls {
 
 impl Walls {
     fn new(walls: &[&[Key]], soup: &Soup, keeps: &[bool]) -> Self {
-        let of_wall = |(k, same): (u32, &&[Key])| edges(same[0].0).map(|edge| (edge, k));
-        let mut uses: Vec<(Edge, u32)> = (0..).zip(walls).flat_map(of_wall).collect();
-        uses.sort_unstable();
+        let of_wall = |(k, same): (u32, &&[Key])| edges(vertices(&same[0])).map(|edge| ([edge, 0, 0], k));
+        let mut uses: Vec<([u64; 3], u32)> = (0..).zip(walls).flat_map(of_wall).collect();
+        parallel::sort(&mut uses);
         let (mut all, mut at) = (Vec::new(), Vec::new());
         for same in uses.chunk_by(|a, b| a.0 == b.0) {
             let start = at.last().map_or(0, |range: &Range<usize>| range.end);
-            all.push(same[0].0);
+            all.push(same[0].0[0]);
             at.push(start..start + same.len());
         }
-        let place = |edge: Edge| all.binary_search(&edge).ok();
+        let place = |edge: u64| all.binary_search(&edge).ok();
         let mut is_odd = vec![false; all.len()];
         let others = soup.mesh.triangles.iter().zip(keeps).filter(|(_, keeps)| **keeps);
         if !all.is_empty() {
@@ -86,7 +94,8 @@ impl Walls {
                 is_odd[place] ^= true;
             }
         }
-        let of_wall = |same: &&[Key]| edges(same[0].0).map(|edge| place(edge).expect("an edge of a wall"));
+        let of_wall =
+            |same: &&[Key]| edges(vertices(&same[0])).map(|edge| place(edge).expect("an edge of a wall"));
         Self {
             edges: walls.iter().map(of_wall).collect(),
             at,

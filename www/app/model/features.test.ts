@@ -15,7 +15,7 @@ const PLAN = {
 } as unknown as SolidPlan;
 
 const meshWith = (features: Partial<HexedSolid['result']['features']>): Pick<HexedSolid, 'result'> =>
-  ({ result: { lostBodies: [], features: { contracted: [], suppressed: [], lostSurfaces: [], ...features } } }) as unknown as HexedSolid;
+  ({ result: { lostBodies: [], crossings: [], features: { contracted: [], suppressed: [], lostSurfaces: [], ...features } } }) as unknown as HexedSolid;
 
 describe('features of a solid', () => {
   test('are lines by how the solid bends, and points', () => {

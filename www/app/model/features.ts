@@ -29,7 +29,7 @@ export interface Lost extends LostFeature {
 export function lostOf({ result }: Pick<HexedSolid, 'result'>): Lost[] {
   const { contracted, suppressed, lostSurfaces } = result.features;
   const named = (list: readonly LostFeature[], what: Lost['what'], fate: string): Lost[] => list.map((lost) => ({ ...lost, what, fate }));
-  return [...named(result.lostBodies, 'body', 'too thin for any cell'), ...named(suppressed, 'curve', 'not shown'), ...named(lostSurfaces, 'surface', 'no face'), ...named(contracted, 'curve', 'shrunk to a corner')].sort(
+  return [...named(result.lostBodies, 'body', 'too thin for any cell'), ...named(suppressed, 'curve', 'not shown'), ...named(lostSurfaces, 'surface', 'no face'), ...named(result.crossings, 'surface', 'crosses another'), ...named(contracted, 'curve', 'shrunk to a corner')].sort(
     (a, b) => b.size - a.size,
   );
 }

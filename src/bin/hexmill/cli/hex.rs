@@ -123,7 +123,7 @@ fn in_words(path: &Path, report: &Report) -> String {
 /// What was done, and what the mesh does not show.
 fn work_in_words(work: &HexingReport) -> Vec<String> {
     let result = work.result();
-    let ResultReport { features, euler, solid_euler, distance, lost_bodies, .. } = result;
+    let ResultReport { features, euler, solid_euler, distance, lost_bodies, crossings, .. } = result;
     let mended = work.solid.mended();
     let mut lines = Vec::new();
     if work.solid.voids > 0 {
@@ -153,6 +153,11 @@ fn work_in_words(work: &HexingReport) -> Vec<String> {
             "body was lost, since no hex lies within it",
             "bodies were lost, since no hex lies within them",
             lost_bodies,
+        ),
+        (
+            "surface has faces that go through others: make hexes there smaller",
+            "surfaces have faces that go through others: make hexes there smaller",
+            crossings,
         ),
     ];
     for (one, many, lost) in kinds.into_iter().filter(|(.., lost)| !lost.is_empty()) {

@@ -1,34 +1,34 @@
 //! Triangles that cross or touch where they should not.
 //!
-//! Lengths within the tolerance of the import are nothing here too: two triangles *cross* if an edge of one goes through
+//! Lengths within the tolerance are nothing: two triangles *cross* if an edge of one goes through
 //! the other and reaches beyond its plane on both sides, and *overlap* if both lie in one plane and share more than a
 //! strip. Neighbours may share what they meet at.
 
-use super::shell::Shell;
 use crate::geometry::{Aabb, BoxIndex, Point};
 use crate::{Cancelled, Monitor, parallel};
 
 /// Two triangles and a place that both have.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Crossing {
+pub(crate) struct Crossing {
     pub triangles: [u32; 2],
     pub at: Point,
 }
 
 /// All pairs of triangles that cross or overlap, ascending.
-pub(super) fn crossings(
-    shell: &Shell,
+pub(crate) fn crossings(
+    points: &[Point],
+    triangles: &[[u32; 3]],
     tolerance: f64,
     monitor: &dyn Monitor,
 ) -> Result<Vec<Crossing>, Cancelled> {
-    let mesh = &shell.mesh;
-    let bounds = |t: usize| Aabb::around(&mesh.at(t));
-    let index = BoxIndex::within((0..mesh.triangles.len()).map(bounds), monitor)?;
-    parallel::try_gather(mesh.triangles.len(), monitor, |t, found| {
+    let at = |t: usize| triangles[t].map(|v| points[v as usize]);
+    let bounds = |t: usize| Aabb::around(&at(t));
+    let index = BoxIndex::within((0..triangles.len()).map(bounds), monitor)?;
+    parallel::try_gather(triangles.len(), monitor, |t, found| {
         let first = found.len();
         for u in index.touching(&bounds(t).grown(tolerance)).filter(|&u| u > t) {
-            let are_neighbours = mesh.triangles[t].iter().any(|v| mesh.triangles[u].contains(v));
-            if let Some(at) = meeting(mesh.at(t), mesh.at(u), are_neighbours, tolerance) {
+            let are_neighbours = triangles[t].iter().any(|v| triangles[u].contains(v));
+            if let Some(at) = meeting(at(t), at(u), are_neighbours, tolerance) {
                 found.push(Crossing { triangles: [t as u32, u as u32], at });
             }
         }
