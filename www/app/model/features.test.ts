@@ -14,8 +14,8 @@ const PLAN = {
   surfaces: [{ class: { kind: 'general' } }, { class: { kind: 'planar', normal: [0, 0, 1] } }, { class: { kind: 'planar', normal: [1, 0, 0] } }],
 } as unknown as SolidPlan;
 
-const meshWith = (features: Partial<HexedSolid['result']['features']>): Pick<HexedSolid, 'result'> =>
-  ({ result: { lostBodies: [], crossings: [], features: { contracted: [], suppressed: [], lostSurfaces: [], ...features } } }) as unknown as HexedSolid;
+const meshWith = (features: Partial<HexedSolid['result']['features']>, more: Partial<HexedSolid['result']> = {}): Pick<HexedSolid, 'result'> =>
+  ({ result: { lostBodies: [], crossings: [], ...more, features: { contracted: [], suppressed: [], lostSurfaces: [], ...features } } }) as unknown as HexedSolid;
 
 describe('features of a solid', () => {
   test('are lines by how the solid bends, and points', () => {
@@ -49,6 +49,9 @@ describe('lost features', () => {
   test('are listed with what became of them, the largest first', () => {
     expect(lostOf(mesh).map(({ what, id, fate }) => `${what} ${id} ${fate}`)).toEqual(['surface 2 no face', 'curve 1 not shown', 'curve 0 shrunk to a corner']);
     expect(lostOf(meshWith({}))).toEqual([]);
+    const [thin, crossing] = [{ id: 3, place: [9, 0, 0], size: 2 }, { id: 4, place: [8, 0, 0], size: 1 }] as const;
+    const others = lostOf(meshWith({}, { lostBodies: [thin as never], crossings: [crossing as never] }));
+    expect(others.map(({ what, id, fate }) => `${what} ${id} ${fate}`)).toEqual(['body 3 too thin', 'surface 4 overlaps']);
   });
 
   test('are drawn along their way, or where they are', () => {

@@ -28,10 +28,14 @@ export interface Lost extends LostFeature {
 /** What a mesh does not show of its solid, the largest first. */
 export function lostOf({ result }: Pick<HexedSolid, 'result'>): Lost[] {
   const { contracted, suppressed, lostSurfaces } = result.features;
-  const named = (list: readonly LostFeature[], what: Lost['what'], fate: string): Lost[] => list.map((lost) => ({ ...lost, what, fate }));
-  return [...named(result.lostBodies, 'body', 'too thin for any cell'), ...named(suppressed, 'curve', 'not shown'), ...named(lostSurfaces, 'surface', 'no face'), ...named(result.crossings, 'surface', 'crosses another'), ...named(contracted, 'curve', 'shrunk to a corner')].sort(
-    (a, b) => b.size - a.size,
-  );
+  const kinds: [LostFeature[], Lost['what'], string][] = [
+    [result.lostBodies, 'body', 'too thin'],
+    [suppressed, 'curve', 'not shown'],
+    [lostSurfaces, 'surface', 'no face'],
+    [result.crossings, 'surface', 'overlaps'],
+    [contracted, 'curve', 'shrunk to a corner'],
+  ];
+  return kinds.flatMap(([list, what, fate]) => list.map((lost) => ({ ...lost, what, fate }))).sort((a, b) => b.size - a.size);
 }
 
 /** What is lost as lines and points: curves along their way, surfaces by their middle. */
