@@ -1,7 +1,8 @@
 //! Where the lines of an aligned grid stand along one axis.
 //!
 //! 1. Planar surfaces perpendicular to the axis with more than half of a square of edges, the larger first, take a line
-//!    unless there is one within .45 edges: so thin that cells still are good.
+//!    unless there is one within .45 edges: so thin that cells still are good. Those of a solid that is thinner than that, such as
+//!    a sheet, both do, however thin it is.
 //! 2. Between two such lines cells are alike and about an edge long.
 //! 3. Beyond the first and the last, or everywhere if there are none, cells are an edge long.
 
@@ -27,7 +28,7 @@ pub(super) struct Plane {
 /// share of an edge, 0 to 1: lines that no surface holds move by it, and between lines that surfaces hold there are
 /// more, the larger it is.
 pub(super) fn lines([least, most]: [f64; 2], planes: &[Plane], edge: f64, shift: f64) -> Vec<f64> {
-    let held = held(planes, edge);
+    let held = held([least, most], planes, edge);
     let (Some(&first), Some(&last)) = (held.first(), held.last()) else {
         let steps = (((most - least) / edge - SAME).ceil()).max(1.0);
         let first = (least + most) / 2.0 + (shift - 0.5 * steps) * edge;
@@ -51,7 +52,13 @@ fn steps(gap: f64, edge: f64, shift: f64) -> u32 {
 }
 
 /// The lines that surfaces hold, ascending.
-fn held(planes: &[Plane], edge: f64) -> Vec<f64> {
+fn held([least, most]: [f64; 2], planes: &[Plane], edge: f64) -> Vec<f64> {
+    let is_at = |plane: &&Plane, end: f64| (plane.at - end).abs() < 0.25 * (most - least);
+    let area = |end: f64| planes.iter().filter(|p| is_at(p, end)).map(|plane| plane.area).sum::<f64>();
+    let is_held = |end: f64| area(end) > LEAST_AREA * edge * edge;
+    if most - least < LEAST_GAP * edge && is_held(least) && is_held(most) {
+        return vec![least, most];
+    }
     let mut groups = groups(planes, edge);
     groups.retain(|group| group.area > LEAST_AREA * edge * edge);
     groups.sort_unstable_by(|a, b| b.area.total_cmp(&a.area).then(a.at.total_cmp(&b.at)));
@@ -122,6 +129,19 @@ mod tests {
         // Two halves of one plane count together.
         let halves = [plane(0.0, 7.0), plane(2.2, 0.4), plane(2.2, 0.3)];
         assert!(within([0.0, 5.0], &halves, 0.0).contains(&2.2));
+    }
+
+    #[test]
+    fn both_sides_of_a_sheet_hold_lines() {
+        let between = |sides: &[Plane]| {
+            let all = lines([0.0, 0.1], sides, 1.0, 0.0);
+            let lines: Vec<f64> = all.into_iter().filter(|line| (0.0..=0.1).contains(line)).collect();
+            lines
+        };
+        assert_eq!(between(&[plane(1e-9, 9.0), plane(0.1, 9.0)]), [0.0, 0.1]);
+        assert_eq!(between(&[plane(0.0, 9.0), plane(0.1, 0.2), plane(0.1, 0.4)]), [0.0, 0.1]);
+        // A disc with a pin, whose end is as large as half a square of edges at most.
+        assert_eq!(between(&[plane(0.0, 9.0), plane(0.1, 0.5), plane(0.03, 8.0)]).len(), 1);
     }
 
     #[test]
