@@ -102,9 +102,9 @@ impl SolidReport {
     /// What was mended, in words; nothing if the surface was sound.
     pub fn mended(&self) -> Vec<String> {
         let kinds = [
-            (self.close_points, "point", "welded that were close to others"),
-            (self.degenerate_triangles, "triangle", "dropped that had a point twice"),
-            (self.duplicate_triangles, "triangle", "dropped that were there twice"),
+            (self.close_points, "point", "welded to others close by"),
+            (self.degenerate_triangles, "triangle", "dropped for having a point twice"),
+            (self.duplicate_triangles, "triangle", "dropped for being there twice"),
             (self.wall_triangles, "triangle", "of inner walls or of sheets without thickness dropped"),
             (self.filled_holes.len(), "hole", "filled"),
             (self.turned_triangles, "triangle", "turned outward"),

@@ -5,7 +5,7 @@ use super::{folder_holding, folder_with, hexmill, json, succeed};
 #[test]
 fn a_closed_surface_has_no_defects() {
     let folder = folder_with("solids/3holes.obj");
-    let stdout = succeed(&folder, &["check", "3holes.obj", "--report", "r.json"]);
+    let stdout = succeed(&folder, &["check", "3holes.obj", "--threads", "1", "--report", "r.json"]);
     assert!(
         stdout.contains("components 1, boundary loops 0 (0 edges), Euler number -4, manifold, orientable"),
         "{stdout}"

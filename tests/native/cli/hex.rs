@@ -184,6 +184,28 @@ fn what_can_be_mended_is_mended_and_told() {
     assert!(stdout.contains("mended: 12 triangles turned outward"), "{stdout}");
 }
 
+/// A triangle that is there again, turned, of a corner of the cube; a fin; and lines of which two edges are none of the cube.
+#[test]
+fn what_was_dropped_and_lines_beside_the_surface_are_told() {
+    for (more, told) in [
+        ("f 4 1 5\nf 4 5 8\nf 5 1 4\n", "mended: 1 triangle dropped for being there twice"),
+        (
+            "v -1 0 1\nf 1 5 9\nf 9 5 1\n",
+            "mended: 2 triangles of inner walls or of sheets without thickness dropped",
+        ),
+        (
+            "f 4 1 5 8\nl 1 7\nl 2 8\nl 1 2\n",
+            "2 edges of the file's lines are none of the surface, and no features",
+        ),
+    ] {
+        let cube = CUBE.replace("f 4 1 5 8\n", "");
+        let side = if more.starts_with("v ") { "f 4 1 5 8\n" } else { "" };
+        let folder = folder_holding("cube.obj", &format!("{cube}{side}{more}"));
+        let stdout = succeed(&folder, &["hex", "cube.obj", "-o", "cube.vtu", "-e", "0.5"]);
+        assert!(stdout.contains("125 nodes, 64 hexes") && stdout.contains(told), "{stdout}");
+    }
+}
+
 #[test]
 fn bodies_are_groups_and_shells_within_are_voids() {
     let arguments = ["hex", "two.obj", "-o", "two.msh", "-e", "0.5", "--report", "r.json"];
