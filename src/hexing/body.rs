@@ -11,7 +11,7 @@
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
 //!    octree, and 2 for that. What shows less than half before it is fitted, or lacks some part of the solid, is not fitted
 //!    before that.
-//! 6. Where the best is still such, a sweep that was no choice, and 2 for that: plates and wedges that are thinner than cells.
+//! 6. Where the best is still such, a sweep that was no choice, and 2 for that: walls and wedges that are thinner than cells.
 //!
 //! A mesh that is too far from the solid is first brought nearer with cells that are fair instead of good (`attempt`), unless
 //! it misses more and a distance is asked for, or none is and many of its cells are poor. Where it is so far that this hardly

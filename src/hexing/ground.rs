@@ -85,7 +85,7 @@ impl<'a> Site<'a> {
         self.options.background == Background::Auto && self.choice.kind != Background::Octree
     }
 
-    /// May it be swept, though that was no choice? Then it is found out how: nothing tells the thickness of a plate, or the edge of
+    /// May it be swept, though that was no choice? Then it is found out how: nothing tells the thickness of a wall, or the edge of
     /// a wedge, as layers do that stand in them.
     pub(super) fn may_be_swept(&self, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
         let Self { solid, options, .. } = self;

@@ -135,8 +135,7 @@ mod tests {
     fn both_sides_of_a_sheet_hold_lines() {
         let between = |sides: &[Plane]| {
             let all = lines([0.0, 0.1], sides, 1.0, 0.0);
-            let lines: Vec<f64> = all.into_iter().filter(|line| (0.0..=0.1).contains(line)).collect();
-            lines
+            all.into_iter().filter(|line| (0.0..=0.1).contains(line)).collect::<Vec<_>>()
         };
         assert_eq!(between(&[plane(1e-9, 9.0), plane(0.1, 9.0)]), [0.0, 0.1]);
         assert_eq!(between(&[plane(0.0, 9.0), plane(0.1, 0.2), plane(0.1, 0.4)]), [0.0, 0.1]);

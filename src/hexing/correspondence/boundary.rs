@@ -37,7 +37,7 @@ pub(super) struct Spoke {
     pub hexes: u32,
 }
 
-/// A node is at a point that is no farther from it than this share of an edge.
+/// A node is at the end of an arc that is no farther from it than this share of the arc's length.
 const THERE: f64 = 0.1;
 
 pub(super) struct Boundary {

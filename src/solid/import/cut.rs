@@ -1,14 +1,14 @@
 //! Cuts polygons into triangles.
 
 use super::Soup;
-use crate::Monitor;
-use crate::geometry::{Extent, triangulate};
+use crate::geometry::{Extent, Point, triangulate};
 use crate::mesh::check::check_faces;
 use crate::mesh::{FaceId, NodeId, PolygonMesh};
 use crate::monitor::batches;
 use crate::parallel;
 use crate::solid::error::SolidError;
 use crate::solid::shell::{NONE, Triangles};
+use crate::{Cancelled, Monitor};
 
 /// The triangles of the polygons of a surface that is sound; a polygon that is there again is cut along the same diagonals. `first`
 /// tells for each node the first in its place.
@@ -27,16 +27,15 @@ pub(super) fn triangles(
     if let Some(defect) = broken {
         return Err(SolidError::Broken(defect));
     }
-    let extent = Extent::of(&surface.positions);
+    let extent = Extent::of(points_of(surface));
     let has_digits = extent.size == 0.0 || extent.has_digits_for(extent.size);
     if !(extent.is_in_range() && has_digits) {
         let Extent { size, reach } = extent;
         return Err(SolidError::Extent { size, reach });
     }
-    let again = given_again(surface, first);
+    let again = given_again(surface, first, monitor)?;
     let mut of_face = vec![NONE; if again.is_empty() { 0 } else { surface.face_count() }];
     (0..).zip(&again).for_each(|(k, again)| of_face[again.face] = k);
-    monitor.proceed()?;
     let (mut triangles, mut face_of) = (Vec::new(), Vec::new());
     let (mut corners, mut local) = (Vec::new(), Vec::new());
     for batch in batches(surface.face_count(), monitor) {
@@ -56,6 +55,11 @@ pub(super) fn triangles(
     }
     let vertex_of = (0..surface.positions.len() as u32).collect();
     Ok(Soup { mesh: Triangles { points: surface.positions.clone(), triangles }, face_of, vertex_of })
+}
+
+/// Where the corners of the polygons are: a file may have points besides.
+pub(super) fn points_of(surface: &PolygonMesh) -> impl Iterator<Item = &Point> {
+    surface.corners.iter().map(|n| &surface.positions[n.index()])
 }
 
 /// A polygon that is there again.
@@ -81,7 +85,7 @@ impl Again {
 }
 
 /// The polygons of four corners and more that are there again.
-fn given_again(surface: &PolygonMesh, first: &[u32]) -> Vec<Again> {
+fn given_again(surface: &PolygonMesh, first: &[u32], monitor: &dyn Monitor) -> Result<Vec<Again>, Cancelled> {
     // Few that differ have the same four least corners.
     let key = |f: usize| {
         let mut least = [u32::MAX; 4];
@@ -94,15 +98,17 @@ fn given_again(surface: &PolygonMesh, first: &[u32]) -> Vec<Again> {
         let [a, b, c, d] = least.map(u64::from);
         ([a << 32 | b, c << 32 | d, 0], f as u32)
     };
-    let faces = 0..surface.face_count();
-    let mut keys: Vec<([u64; 3], u32)> = faces.filter(|&f| surface.face(f).len() > 3).map(key).collect();
+    let mut keys: Vec<([u64; 3], u32)> = Vec::new();
+    for batch in batches(surface.face_count(), monitor) {
+        keys.extend(batch?.filter(|&f| surface.face(f).len() > 3).map(key));
+    }
     parallel::sort(&mut keys);
     let mut again = Vec::new();
     for same in keys.chunk_by(|a, b| a.0 == b.0) {
         let others = same[1..].iter().map(|key| key.1 as usize);
         again.extend(others.filter_map(|face| like(surface, first, same[0].1 as usize, face)));
     }
-    again
+    Ok(again)
 }
 
 /// How a polygon is another one, if it is.

@@ -80,7 +80,7 @@ pub(super) fn import(
 ) -> Result<Imported, SolidError> {
     let first = first_of_same(&surface.positions);
     let mut soup = cut::triangles(surface, &first, monitor)?;
-    let diagonal = Aabb::around(&surface.positions).diagonal();
+    let diagonal = Aabb::around(cut::points_of(surface)).diagonal();
     let tolerance = TOLERANCE * diagonal;
     weld::weld(&mut soup, &first, tolerance, report, monitor)?;
     if soup.face_of.is_empty() {

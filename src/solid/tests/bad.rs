@@ -192,6 +192,16 @@ fn points_of_faces_that_go_go_too() {
     }
 }
 
+#[test]
+fn points_of_no_face_tell_nothing() {
+    for stray in [2e6, 1e80] {
+        let mut cube = cuboid([1, 1, 1]);
+        cube.positions.push(Point::splat(stray));
+        let (solid, report) = made(&cube, &SolidOptions::default());
+        assert_eq!((report.points, solid.corners().len(), solid.volume()), (8, 8, 1.0));
+    }
+}
+
 /// In whatever order its corners are given, and whichever way round.
 #[test]
 fn faces_given_twice_otherwise_go() {
