@@ -11,7 +11,7 @@
 //! **Promises.** The mesh conforms and is a manifold with boundary if the input is one; every hex has a positive
 //! Jacobian, at its corners and inside. Boundary nodes stay on the input's boundary faces, its ridges and its corners, and
 //! nodes between materials and on groups of faces between hexes on these faces of the input. Of meshes that were made to be cut
-//! ([`StageMesh::has_free_boundary`]) nodes of the transitions may leave the boundary.
+//! ([`StageMesh::has_free_boundary`]) nodes of the transitions may leave the boundary, and its parts touch.
 
 use std::sync::Mutex;
 
