@@ -68,9 +68,20 @@ impl Meshed {
             self.approach(solid, None, &options, monitor)?;
         }
         let Self { mesh, on, fitted, .. } = self;
-        fitted.finish(mesh, on, solid, monitor)?;
-        let drawn_in = separate(mesh, &on.faces, monitor)?;
-        report.fit = FitCounts::new(&fitted.report, drawn_in);
+        let mut drawn_in = Vec::new();
+        // Once more where nodes were drawn in: what is inside makes up for that.
+        for _ in 0..2 {
+            fitted.finish(mesh, on, solid, monitor)?;
+            let moved = separate(mesh, &on.faces, monitor)?;
+            if moved.is_empty() {
+                break;
+            }
+            fitted.take_off(&moved);
+            drawn_in.extend(moved);
+        }
+        drawn_in.sort_unstable();
+        drawn_in.dedup();
+        report.fit = FitCounts::new(&fitted.report, drawn_in.len());
         let (worst, mean) = quality(mesh);
         (report.worst, report.mean) = (worst.unwrap_or_default(), mean);
         let rest = Part { whole: monitor, stage: FINISHING, range: [FINISHED, 1.0] };
@@ -116,6 +127,7 @@ pub(super) fn draft(
     let mut report = AttemptReport {
         background: plan.kind,
         shift: plan.shift,
+        holds_walls: plan.holds_walls,
         levels: levels_of(&background),
         ..AttemptReport::default()
     };

@@ -1,7 +1,9 @@
 //! A mesh of one body: attempts, until there is nothing left to mend (design, section 5; issue: refine and retry).
 //!
 //! 1. The background of choice, as it is.
-//! 2. Where that missed something that somebody drew, or is too far from the solid, cells a level smaller there, as often as
+//! 2. Where a grid missed something that somebody drew, or is off the solid, one with lines in both sides of thin walls; first
+//!    of all where the solid is nothing but such, and then a sweep for these as in 6 second.
+//!    Where that missed something still, or is too far from the solid, cells a level smaller there, as often as
 //!    the options allow, and as long as it helps: before such an attempt is fitted it has to show clearly more, unless it is
 //!    made for more than what was lost. Of a core that is not of the solid's kind it is not always known where it differs:
 //!    then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was lost alone.
@@ -11,7 +13,8 @@
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
 //!    octree, and 2 for that. What shows less than half before it is fitted, or lacks some part of the solid, is not fitted
 //!    before that.
-//! 6. Where the best is still such, a sweep that was no choice, and 2 for that: walls and wedges that are thinner than cells.
+//! 6. Where the best is still such, a sweep that was no choice, and 2 for that: walls and wedges that are thinner than cells;
+//!    and where that is such, one that shows walls and steps however thin.
 //!
 //! A mesh that is too far from the solid is first brought nearer with cells that are fair instead of good (`attempt`), unless
 //! it misses more and a distance is asked for, or none is and many of its cells are poor. Where it is so far that this hardly
@@ -23,8 +26,9 @@
 use super::attempt::{Meshed, off_euler};
 use super::background::{Background, BackgroundError, Failure, Missed, retry};
 use super::ground::{Plan, Site};
+use super::merit::{captured, distance};
 use super::options::{HexingError, HexingOptions};
-use super::report::BodyReport;
+use super::report::{AttemptReport, BodyReport};
 use super::search::{Attempt, Search};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
@@ -46,6 +50,9 @@ const FAR_GROWTH: f64 = 1.75;
 /// is not of the solid's kind.
 const OCTREE_GROWTH: f64 = 8.0;
 const KIND_GROWTH: f64 = 24.0;
+
+/// Mesh and solid are as good as together where they are no farther from each other than this, in edge lengths.
+const NEAR: f64 = 0.05;
 
 /// So many hexes are never too many for another try; or so many, for an octree where that is not of the solid's kind.
 const FEW: u64 = 20_000;
@@ -73,7 +80,9 @@ pub(super) fn mesh_body(
 ) -> Result<Body, HexingError> {
     let site = Site::new(solid, options, monitor)?;
     let mut search = Search::new(&site, monitor);
-    let first = site.plan(site.choice.kind);
+    let walls_first =
+        site.is_thin_walled() && site.choice.kind == Background::Grid && site.has_walls(monitor)?;
+    let first = Plan { holds_walls: walls_first, ..site.plan(site.choice.kind) };
     match search.attempt(first, options.max_hexes) {
         // Others may keep what is thinner than its cells.
         Err(HexingError::NothingLeft { .. }) => {}
@@ -83,10 +92,17 @@ pub(super) fn mesh_body(
         }
         made => made?,
     }
+    if search.has_tried(Background::Grid) || site.choice.kind == Background::Grid {
+        search.hold_walls()?;
+    }
+    if site.is_thin_walled() {
+        search.sweep_walls()?;
+    }
     search.refine(options.max_hexes)?;
     let is_astray = search.is_astray();
     if site.may_be_grid() && (is_astray || !search.is_good()) && !search.has_tried(Background::Grid) {
         search.another(site.plan(Background::Grid), search.limit())?;
+        search.hold_walls()?;
         if is_astray && search.is_on(Background::Grid) {
             search.refine(options.max_hexes)?;
         }
@@ -94,7 +110,9 @@ pub(super) fn mesh_body(
     if search.is_on(Background::Grid) {
         for shift in SHIFTS {
             if !search.is_good() {
-                search.another(Plan { shift, ..site.plan(Background::Grid) }, search.limit())?;
+                let holds_walls = search.best.as_ref().is_some_and(|best| best.plan.holds_walls);
+                let plan = Plan { shift, holds_walls, ..site.plan(Background::Grid) };
+                search.another(plan, search.limit())?;
             }
         }
     }
@@ -111,6 +129,7 @@ pub(super) fn mesh_body(
             search.refine(options.max_hexes)?;
         }
     }
+    search.sweep_walls()?;
     search.settle()?;
     match (&search.best, search.tangled) {
         (None, Some(hexes)) => Err(HexingError::Tangled(hexes)),
@@ -122,6 +141,7 @@ impl Search<'_> {
     /// Refines where the best attempt missed something, and tries again, as often as that helps, with at most so many
     /// hexes. What is known of a draft may not be all: if smaller cells there are not better it is fitted, and refined by
     /// what that missed, unless an octree comes first.
+    #[inline(never)] // Compiled once for all that call it.
     fn refine(&mut self, max_hexes: u64) -> Result<(), HexingError> {
         for round in 1..=self.site.options.max_levels {
             if !self.is_refined(round, max_hexes)? {
@@ -135,6 +155,32 @@ impl Search<'_> {
             }
         }
         if self.waits() && !self.octree_is_first() { self.fit_best() } else { Ok(()) }
+    }
+
+    /// Where a grid missed something that somebody drew, or is off the solid, tries one with lines in both sides of walls and
+    /// slots that are thinner than its cells.
+    fn hold_walls(&mut self) -> Result<(), HexingError> {
+        let near = NEAR * self.site.options.edge_length;
+        let shows_all =
+            |best: &AttemptReport| captured(best.features.as_ref()) >= 1.0 && distance(best) <= near;
+        let is_done = self.best_report().is_some_and(shows_all) || self.has_held_walls(Background::Grid);
+        if is_done || !self.site.has_walls(self.monitor)? {
+            return Ok(());
+        }
+        let plan = Plan { holds_walls: true, ..self.site.plan(Background::Grid) };
+        self.another(plan, self.limit_of_walls())?;
+        Ok(())
+    }
+
+    /// Where the best attempt is not what was asked for, tries a sweep that shows walls and steps however thin, and refines it.
+    fn sweep_walls(&mut self) -> Result<(), HexingError> {
+        let is_done = !self.is_other() || self.has_held_walls(Background::Swept);
+        if is_done || !self.site.may_hold_walls(self.monitor)? {
+            return Ok(());
+        }
+        let plan = Plan { holds_walls: true, ..self.site.plan(Background::Swept) };
+        self.another(plan, self.limit_of_walls())?;
+        if self.is_on(Background::Swept) { self.refine(self.site.options.max_hexes) } else { Ok(()) }
     }
 
     /// Makes an attempt with smaller cells where the best missed something. False if it is no better.
@@ -182,6 +228,11 @@ impl Search<'_> {
             Some(_) => self.grown(ASKED_GROWTH).max(FEW).min(self.site.options.max_hexes),
             None => self.grown(FAR_GROWTH).min(self.site.options.max_hexes),
         }
+    }
+
+    /// How many if walls and steps are shown however thin.
+    fn limit_of_walls(&self) -> u64 {
+        self.grown(FAR_GROWTH).max(FEW).min(self.site.options.max_hexes)
     }
 
     /// How many an octree may have, and what is refined of it.
@@ -240,249 +291,4 @@ impl Search<'_> {
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
-mod tests {
-    use super::super::attempt::draft;
-    use super::super::merit::distance;
-    use super::super::report::AttemptReport;
-    use super::super::search::Waiting;
-    use glam::DMat3;
-
-    use super::*;
-    use crate::Silent;
-    use crate::geometry::Point;
-    use crate::mesh::PolygonMesh;
-    use crate::solid::testing::{moved, polygons, solid, voxels};
-
-    /// A sweep captures its walls, which no grid does, and shows all of the solid but a dimple in the top, be it shallow or so
-    /// narrow and deep that no cells of a sweep show it.
-    #[test]
-    fn a_sweep_is_refined_before_a_grid_is_tried() {
-        for (depth, radius) in [(0.4, 3.0), (4.0, 1.0)] {
-            let dimple = |p: Point| depth * (1.0 - (p.truncate() - 10.0).length() / radius).max(0.0);
-            let bent = |p: Point| Point::new(p.x + 3.0 * libm::sin(p.y / 4.0), p.y, p.z);
-            let plate = voxels([20, 20, 6], |_| true);
-            let surface = moved(plate, |p| bent(if p.z == 6.0 { p - Point::Z * dimple(p) } else { p }));
-            let options =
-                HexingOptions { edge_length: 1.5, max_distance: Some(0.095), ..HexingOptions::default() };
-            let solid = solid(&surface);
-            let Body { report, .. } = mesh_body(&solid, &options, &Silent).unwrap();
-            let fitted = report.attempts.iter().filter(|attempt| attempt.mesh.is_some());
-            let kinds: Vec<_> = fitted.map(|a| (a.background, a.levels.len())).collect();
-            assert_eq!(kinds[..2], [(Background::Swept, 1), (Background::Swept, 2)], "{depth}");
-            let site = Site::new(&solid, &options, &Silent).unwrap();
-            let is_astray = distance(&report.attempts[0]) > site.taste.astray * options.edge_length;
-            assert_eq!(is_astray, depth > 1.0);
-            assert_eq!(kinds.contains(&(Background::Grid, 1)), is_astray);
-        }
-    }
-
-    /// What is kept of a solid with such edges: its background, how far that is from the solid, and what of it was found.
-    fn kept(surface: &PolygonMesh, edge_length: f64) -> (Background, f64, bool) {
-        let options = HexingOptions { edge_length, ..HexingOptions::default() };
-        let Body { best, report } = mesh_body(&solid(surface), &options, &Silent).unwrap();
-        let kept = &report.attempts[best.expect("there is a mesh").number];
-        let features = kept.features.as_ref().unwrap();
-        let shows_all = [features.corners, features.curves, features.surfaces].map(|n| n.captured == n.found);
-        (kept.background, distance(kept), shows_all == [true; 3])
-    }
-
-    /// A plate that is a twelfth of an edge thick and stands askew is one layer.
-    #[test]
-    fn a_sheet_is_a_layer_of_hexes() {
-        let turn = DMat3::from_rotation_z(0.4) * DMat3::from_rotation_x(0.7);
-        let plate = moved(voxels([4, 4, 1], |_| true), |p| turn * (p * Point::new(1.0, 1.0, 0.04)));
-        let (background, apart, shows_all) = kept(&plate, 0.5);
-        assert!(background == Background::Grid && apart < 1e-9 && shows_all, "{background:?} {apart}");
-    }
-
-    /// Nothing but layers that end in its edge shows a wedge of five degrees, though the quads there are poor.
-    #[test]
-    fn a_wedge_is_swept_where_all_else_misses_it() {
-        let back = libm::tan(5.0_f64.to_radians());
-        let ends = [0.0, 1.0].map(|y| [[0.0, y, 0.0], [1.0, y, 0.0], [1.0, y, back]]);
-        let faces = [[0, 1, 2], [5, 4, 3], [0, 3, 4], [0, 4, 1], [1, 4, 5], [1, 5, 2], [2, 5, 3], [2, 3, 0]];
-        let wedge = polygons(ends.as_flattened(), &faces);
-        let (background, apart, shows_all) = kept(&wedge, 0.1);
-        assert!(background == Background::Swept && apart < 0.05 && shows_all, "{background:?} {apart}");
-    }
-
-    /// Euler numbers of a first attempt on a background of so many hexes, and how many an octree may have then.
-    fn limit_of_octree(euler: i64, background: usize, max_hexes: u64) -> u64 {
-        let solid = solid(&voxels([4, 4, 4], |_| true));
-        let options = HexingOptions { edge_length: 1.0, max_hexes, ..HexingOptions::default() };
-        let site = Site::new(&solid, &options, &Silent).unwrap();
-        let mut search = Search::new(&site, &Silent);
-        search.attempt(site.plan(Background::Grid), max_hexes).unwrap();
-        (search.attempts[0].core.euler, search.attempts[0].core.background) = (euler, background);
-        search.limit_of_octree()
-    }
-
-    /// Where a coarse grid has another Euler number an octree may have as many hexes as small holes take.
-    #[test]
-    fn an_octree_may_be_larger_where_the_kind_is_wrong() {
-        let many = 1_000_000;
-        assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 2446, many)), [20_000, 150_000]);
-        assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 10_000, many)), [80_000, 240_000]);
-        assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 10_000, 50_000)), [50_000, 50_000]);
-    }
-
-    /// A plate with nine pegs, of which large cells show none: drafts wait as long as there are smaller cells to try.
-    #[test]
-    fn a_draft_that_loses_much_waits_for_smaller_cells() {
-        let is_peg = |k: i32| k % 4 == 2;
-        let pegs = voxels([13, 13, 4], |[x, y, z]| z < 3 || is_peg(x) && is_peg(y));
-        let solid = solid(&pegs);
-        for max_levels in [0, 2] {
-            let options = HexingOptions { edge_length: 2.4, max_levels, ..HexingOptions::default() };
-            let Body { report, .. } = mesh_body(&solid, &options, &Silent).unwrap();
-            let fitted = report.attempts.iter().position(|attempt| attempt.mesh.is_some()).unwrap();
-            assert_eq!(fitted > 0, max_levels > 0);
-            let lost = report.attempts[..=fitted].iter().map(|a| a.features.as_ref().unwrap().lost());
-            assert!(lost.is_sorted_by(|a, b| a > b));
-        }
-    }
-
-    /// A search whose first attempt is a draft of a cube that has this Euler number, as far as it knows.
-    fn with_draft<'a>(site: &'a Site<'a>, euler: i64) -> Search<'a> {
-        let (mut search, plan) = (Search::new(site, &Silent), site.plan(Background::Grid));
-        let background = site.background(&plan, u64::MAX, &Silent).unwrap();
-        let draft = draft(site, &plan, background, None, &Silent).unwrap().ok();
-        let mut report = draft.as_ref().unwrap().report.clone();
-        report.core.euler = euler;
-        search.attempts.push(report);
-        search.waiting.push(Waiting { number: 0, plan: plan.clone(), draft });
-        search.best = Some(Attempt { meshed: None, failures: Vec::new(), number: 0, plan });
-        search
-    }
-
-    /// One of another kind not before all else was tried.
-    #[test]
-    fn a_draft_that_smaller_cells_do_not_better_is_fitted() {
-        let solid = solid(&voxels([4, 4, 4], |_| true));
-        let options = HexingOptions { edge_length: 1.0, ..HexingOptions::default() };
-        let site = Site::new(&solid, &options, &Silent).unwrap();
-        let mut of_kind = with_draft(&site, 2);
-        assert!(of_kind.waits() && !of_kind.is_good());
-        of_kind.refine(options.max_hexes).unwrap();
-        assert!(!of_kind.waits() && of_kind.is_good() && of_kind.attempts.len() == 1);
-        let mut other = with_draft(&site, 0);
-        assert!(!other.waits() && !other.is_good());
-        other.settle().unwrap();
-        assert!(other.waiting.is_empty() && other.is_good() && other.attempts.len() == 1);
-    }
-
-    #[test]
-    fn a_draft_is_fitted_alike_be_it_kept_or_made_again() {
-        let solid = solid(&voxels([4, 4, 4], |[x, y, z]| x + y + z < 9));
-        let options = HexingOptions { edge_length: 0.7, ..HexingOptions::default() };
-        let site = Site::new(&solid, &options, &Silent).unwrap();
-        let fitted = |is_kept: bool| {
-            let mut search = with_draft(&site, 2);
-            search.waiting[0].draft.take_if(|_| !is_kept);
-            search.fit_best().unwrap();
-            let best = search.best.unwrap();
-            (search.attempts, best.meshed.unwrap().mesh, best.failures)
-        };
-        assert_eq!(fitted(true), fitted(false));
-    }
-
-    #[test]
-    fn of_the_drafts_that_wait_only_the_last_is_kept() {
-        let pegs = voxels([13, 13, 4], |[x, y, z]| z < 3 || x % 4 == 2 && y % 4 == 2);
-        let solid = solid(&pegs);
-        let options = HexingOptions { edge_length: 2.4, ..HexingOptions::default() };
-        let site = Site::new(&solid, &options, &Silent).unwrap();
-        let mut search = Search::new(&site, &Silent);
-        search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
-        // The same again, as though it lost half of what the first did.
-        search.attempts[0].features.as_mut().map(|f| f.suppressed.extend(f.suppressed.clone())).unwrap();
-        search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
-        let kept: Vec<bool> = search.waiting.iter().map(|waiting| waiting.draft.is_some()).collect();
-        assert_eq!((kept, search.number()), (vec![false, true], Some(1)));
-    }
-
-    /// It is tried whatever comes of the fit.
-    #[test]
-    fn a_draft_that_shows_little_is_not_fitted_before_an_octree_was_tried() {
-        let solid = solid(&voxels([4, 4, 4], |_| true));
-        let options = HexingOptions { edge_length: 1.0, ..HexingOptions::default() };
-        let site = Site::new(&solid, &options, &Silent).unwrap();
-        let showing = |curves: usize| {
-            let mut search = with_draft(&site, 2);
-            let features = search.attempts[0].features.as_mut().unwrap();
-            assert_eq!((features.curves.captured, features.surfaces.captured), (12, 6));
-            features.curves.captured = curves;
-            search
-        };
-        for (curves, waits) in [(3, false), (2, true)] {
-            let mut search = showing(curves);
-            search.refine(options.max_hexes).unwrap();
-            assert_eq!((search.waits(), search.is_other()), (waits, waits));
-        }
-        let mut search = showing(2);
-        search.attempts.push(AttemptReport { background: Background::Octree, ..search.attempts[0].clone() });
-        search.refine(options.max_hexes).unwrap();
-        assert!(!search.waits() && search.is_good());
-    }
-
-    /// A block with a hole that is narrower than cells.
-    fn drilled(depth: i32) -> SolidModel {
-        solid(&voxels([12, 12, 12], |[x, y, z]| (x, y) != (6, 6) || z < 12 - depth))
-    }
-
-    #[test]
-    fn a_draft_that_lacks_a_part_waits_for_an_octree() {
-        let options = HexingOptions { edge_length: 3.0, ..HexingOptions::default() };
-        for (depth, lacks_part) in [(3, false), (6, true)] {
-            let solid = drilled(depth);
-            let site = Site::new(&solid, &options, &Silent).unwrap();
-            let mut search = Search::new(&site, &Silent);
-            search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
-            assert_eq!(search.attempts[0].lacks_part, lacks_part, "{depth}");
-            search.refine(100).unwrap();
-            assert_eq!(search.waits(), lacks_part, "{depth}");
-        }
-        let Body { report, .. } = mesh_body(&drilled(6), &options, &Silent).unwrap();
-        let kept = &report.attempts[report.kept.unwrap()];
-        assert!(!kept.lacks_part && distance(kept) < 0.5, "{}", distance(kept));
-    }
-
-    /// The same once more shows nothing more.
-    #[test]
-    fn of_drafts_that_lack_a_part_only_better_ones_wait() {
-        let options = HexingOptions { edge_length: 3.0, ..HexingOptions::default() };
-        let solid = drilled(6);
-        let site = Site::new(&solid, &options, &Silent).unwrap();
-        let mut search = Search::new(&site, &Silent);
-        for _ in 0..2 {
-            search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
-        }
-        assert_eq!((search.attempts.len(), search.waiting.len(), search.number()), (2, 1, Some(0)));
-        // A mesh that lacks none is not put off for it, be its cells good or not.
-        for (lacks_part, fitted) in [(false, false), (true, true)] {
-            let mut search = Search::new(&site, &Silent);
-            search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
-            search.fit_best().unwrap();
-            search.attempts[0].lacks_part = lacks_part;
-            search.attempts[0].mesh.as_mut().unwrap().worst = 0.1;
-            let report = AttemptReport { lacks_part: true, mesh: None, ..search.attempts[0].clone() };
-            search.attempts.push(report);
-            search.waiting.push(Waiting { number: 1, plan: site.plan(Background::Grid), draft: None });
-            search.settle().unwrap();
-            assert_eq!(search.attempts[1].mesh.is_some(), fitted);
-        }
-    }
-
-    #[test]
-    fn a_recess_shallower_than_half_an_edge_is_shown_by_smaller_cells() {
-        let recessed =
-            voxels([20, 20, 6], |[x, y, z]| z < 5 || !(8..11).contains(&x) || !(8..11).contains(&y));
-        let shallow = moved(recessed, |p| p.with_z(p.z.min(5.0) + 0.4 * (p.z - 5.0).max(0.0)));
-        let options =
-            HexingOptions { edge_length: 1.0, max_distance: Some(0.09), ..HexingOptions::default() };
-        let Body { best, report } = mesh_body(&solid(&shallow), &options, &Silent).unwrap();
-        let distances: Vec<f64> = report.attempts.iter().map(distance).collect();
-        let kept = best.unwrap().number;
-        assert!(distances[0] > 0.1 && kept > 0 && distances[kept] < 0.09, "{distances:?} {kept}");
-    }
-}
+mod tests;

@@ -1,14 +1,45 @@
 //! Where the boundary of a mesh goes through itself: parts of solids, or bodies, that are nearer to each other than cells are long
-//! may be shown by cells that reach into each other. Each cell is positive all the same.
+//! may be shown by cells that reach into each other. Each cell is positive all the same. Parts of a body are drawn apart
+//! (`separate`); what is told is of several, for the most part.
 
 use super::report::LostFeature;
-use crate::geometry::area_vector;
-use crate::mesh::{HexMesh, NodeId, crossings};
+use crate::geometry::{Aabb, BoxIndex, Point, area_vector};
+use crate::mesh::{HexMesh, NodeId, meeting};
 use crate::solid::SurfaceId;
-use crate::{Cancelled, Monitor};
+use crate::{Cancelled, Monitor, parallel};
 
-/// What is shorter than this share of the solid's diagonal is nothing.
+/// What is shorter than this share of the mesh's diagonal is nothing.
 const NOTHING: f64 = 1e-6;
+
+/// All pairs of faces of the boundary that go through each other and share no node, each with a place, ascending.
+///
+/// # Errors
+/// [`Cancelled`] when the monitor says so.
+pub(super) fn crossing_faces(
+    mesh: &HexMesh,
+    faces: &[([NodeId; 4], SurfaceId)],
+    monitor: &dyn Monitor,
+) -> Result<Vec<([usize; 2], Point)>, Cancelled> {
+    let tolerance = NOTHING * mesh.bounds().diagonal();
+    let corners = |f: usize| faces[f].0.map(|n| mesh.positions[n.index()]);
+    let halves = |f: usize| {
+        let [a, b, c, d] = corners(f);
+        [[a, b, c], [a, c, d]]
+    };
+    let index = BoxIndex::within((0..faces.len()).map(|f| Aabb::around(&corners(f))), monitor)?;
+    parallel::try_gather(faces.len(), monitor, |f, found| {
+        let around = Aabb::around(&corners(f)).grown(tolerance);
+        let is_apart = |&other: &usize| faces[f].0.iter().all(|n| !faces[other].0.contains(n));
+        let later = index.touching(&around).filter(|&other| other > f).filter(is_apart);
+        let mut others: Vec<u32> = later.map(|other| other as u32).collect();
+        parallel::sort(&mut others);
+        for other in others.into_iter().map(|other| other as usize) {
+            let pairs = halves(f).map(|a| halves(other).map(|b| [a, b]));
+            let place = pairs.as_flattened().iter().find_map(|&[a, b]| meeting(a, b, false, tolerance));
+            found.extend(place.map(|at| ([f, other], at)));
+        }
+    })
+}
 
 /// The surfaces whose faces go through others with which they share no node: each with a place, and the square root of the area of
 /// these faces.
@@ -18,23 +49,12 @@ const NOTHING: f64 = 1e-6;
 pub(super) fn crossing_surfaces(
     mesh: &HexMesh,
     faces: &[([NodeId; 4], SurfaceId)],
-    diagonal: f64,
     monitor: &dyn Monitor,
 ) -> Result<Vec<LostFeature>, Cancelled> {
-    let halves = |quad: [NodeId; 4]| {
-        let [a, b, c, d] = quad.map(|n| n.0);
-        [[a, b, c], [a, c, d]]
-    };
-    let triangles: Vec<[u32; 3]> = faces.iter().flat_map(|&(quad, _)| halves(quad)).collect();
-    let found = crossings(&mesh.positions, &triangles, NOTHING * diagonal, monitor)?;
     let mut of_surface: Vec<LostFeature> = Vec::new();
     let mut is_counted = vec![false; faces.len()];
-    for crossing in found {
-        let [a, b] = crossing.triangles.map(|t| t as usize / 2);
-        if faces[a].0.iter().any(|n| faces[b].0.contains(n)) {
-            continue;
-        }
-        for face in [a, b] {
+    for (pair, at) in crossing_faces(mesh, faces, monitor)? {
+        for face in pair {
             if std::mem::replace(&mut is_counted[face], true) {
                 continue;
             }
@@ -42,7 +62,7 @@ pub(super) fn crossing_surfaces(
             let area = area_vector(&quad.map(|n| mesh.positions[n.index()])).length();
             match of_surface.iter_mut().find(|lost| lost.id == id) {
                 Some(lost) => lost.size += area,
-                None => of_surface.push(LostFeature { id, place: crossing.at.to_array(), size: area }),
+                None => of_surface.push(LostFeature { id, place: at.to_array(), size: area }),
             }
         }
     }
@@ -54,7 +74,7 @@ pub(super) fn crossing_surfaces(
 mod tests {
     use super::*;
     use crate::Silent;
-    use crate::geometry::{Aabb, Point};
+    use crate::geometry::Aabb;
     use crate::mesh::topology::hex_boundary;
     use crate::mesh::{GridOptions, hex_grid};
 
@@ -71,7 +91,7 @@ mod tests {
         let boundary = hex_boundary(&mesh.hexes).into_iter();
         let faces: Vec<_> =
             boundary.map(|(quad, hex)| (quad, SurfaceId::new(usize::from(hex.index() >= hexes)))).collect();
-        crossing_surfaces(&mesh, &faces, 5.0, &Silent).unwrap()
+        crossing_surfaces(&mesh, &faces, &Silent).unwrap()
     }
 
     #[test]

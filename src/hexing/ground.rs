@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use glam::DMat3;
 
 use super::background::{
-    AlignedGrid, Background, BackgroundError, Choice, Octree, OctreeMesh, Sweep, SweepError, SweptScore,
-    Wanted, choose, may_sweep, octree, refined,
+    AlignedGrid, Background, BackgroundError, Choice, LEAST_GAP, Octree, OctreeMesh, Sweep, SweepError,
+    SweepOptions, SweptScore, Wanted, choose, has_walls, may_sweep, octree, refined,
 };
 use super::direction::{DirectionScore, best_frame, principal_directions};
 use super::merit::Taste;
@@ -14,6 +14,9 @@ use super::options::HexingOptions;
 use crate::sizing::{Region, Target};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
+
+/// The share of the usual tolerances for a sweep that shows walls and steps however thin.
+const FINE: f64 = 1.0 / 16.0;
 
 /// A body and the kind of background that suits it.
 pub(super) struct Site<'a> {
@@ -27,6 +30,8 @@ pub(super) struct Site<'a> {
     sweep: Option<Sweep>,
     /// One that was no choice.
     unlikely_sweep: OnceLock<Option<Sweep>>,
+    /// One that shows walls and steps however thin.
+    fine_sweep: OnceLock<Option<Sweep>>,
 }
 
 /// How an attempt's background differs from others of its site.
@@ -36,6 +41,8 @@ pub(super) struct Plan {
     pub(super) kind: Background,
     /// How far the lines of a grid are moved, as a share of an edge along each axis.
     pub(super) shift: [f64; 3],
+    /// Do lines of a grid stand in both sides of walls and slots that are thinner than its cells, or does a sweep show them?
+    pub(super) holds_walls: bool,
     /// Where cells are to be smaller, beyond what the options want.
     pub(super) regions: Vec<Region>,
     /// Are cells of a grid to be halved, in blocks? Else they are cut in three where halves would spread over all of it:
@@ -72,6 +79,7 @@ impl<'a> Site<'a> {
             axes,
             sweep,
             unlikely_sweep: OnceLock::new(),
+            fine_sweep: OnceLock::new(),
         })
     }
 
@@ -93,20 +101,48 @@ impl<'a> Site<'a> {
             return Ok(false);
         }
         if self.sweep.is_none() && self.unlikely_sweep.get().is_none() {
-            let sweep = sweep_along(solid, self.directions.first(), options, monitor)?;
+            let sweep = sweep_along(solid, self.directions.first(), &sweep_options(options), monitor)?;
             self.unlikely_sweep.get_or_init(|| sweep);
         }
-        Ok(self.sweep().is_some())
+        Ok(self.sweep(false).is_some())
     }
 
-    fn sweep(&self) -> Option<&Sweep> {
+    /// May it be swept so that walls and steps are shown however thin, be it that a sweep was asked for? As that is found out, so
+    /// it may.
+    pub(super) fn may_hold_walls(&self, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
+        if self.options.background != Background::Swept && !self.may_be_swept(monitor)? {
+            return Ok(false);
+        }
+        if self.fine_sweep.get().is_none() {
+            let options = SweepOptions { tolerance: FINE, ..sweep_options(self.options) };
+            let sweep = sweep_along(self.solid, self.directions.first(), &options, monitor)?;
+            self.fine_sweep.get_or_init(|| sweep);
+        }
+        Ok(self.sweep(true).is_some())
+    }
+
+    /// Is the body on the whole thinner than the cells of a grid may be?
+    pub(super) fn is_thin_walled(&self) -> bool {
+        let area: f64 = self.solid.surfaces().iter().map(|surface| surface.area).sum();
+        2.0 * self.solid.volume() < LEAST_GAP * self.options.edge_length * area
+    }
+
+    /// Has the body walls or slots thinner than the cells of a grid, along its axes?
+    pub(super) fn has_walls(&self, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
+        has_walls(self.solid, self.axes, self.edge_length(Background::Grid), monitor)
+    }
+
+    fn sweep(&self, holds_walls: bool) -> Option<&Sweep> {
+        if holds_walls {
+            return self.fine_sweep.get()?.as_ref();
+        }
         self.sweep.as_ref().or_else(|| self.unlikely_sweep.get()?.as_ref())
     }
 
     /// A background of this kind, as it is: in an octree details have smaller cells from the beginning.
     pub(super) fn plan(&self, kind: Background) -> Plan {
         let details = if kind == Background::Octree { self.options.max_levels } else { 0 };
-        Plan { kind, shift: [0.0; 3], regions: Vec::new(), in_blocks: false, details }
+        Plan { kind, shift: [0.0; 3], holds_walls: false, regions: Vec::new(), in_blocks: false, details }
     }
 
     /// How long the edges of cells of level 0 are.
@@ -128,7 +164,8 @@ impl<'a> Site<'a> {
     ) -> Result<OctreeMesh, BackgroundError> {
         let &Self { solid, options, axes, .. } = self;
         let edge_length = self.edge_length(plan.kind);
-        let aligned = AlignedGrid { edge_length, axes, shift: plan.shift, max_hexes };
+        let aligned =
+            AlignedGrid { edge_length, axes, shift: plan.shift, holds_walls: plan.holds_walls, max_hexes };
         let mut regions = options.regions.clone();
         if plan.kind == Background::Octree && self.may_be_octree() {
             // The user's levels count from the edge length, where it was not the user who wanted an octree.
@@ -143,9 +180,13 @@ impl<'a> Site<'a> {
             regions: &regions,
             in_blocks: plan.in_blocks,
         };
-        match (plan.kind, self.sweep()) {
+        match (plan.kind, self.sweep(plan.holds_walls)) {
             (Background::Swept, Some(sweep)) => {
                 let mesh = sweep.mesh(solid, monitor)?;
+                let hexes = mesh.hexes.len();
+                if hexes as u64 > max_hexes {
+                    return Err(BackgroundError::TooManyHexes { hexes: hexes as f64, limit: max_hexes });
+                }
                 refined(mesh, solid, edge_length, &wanted, max_hexes, monitor)
             }
             _ => octree(solid, &Octree { grid: aligned, wanted }, monitor),
@@ -186,21 +227,26 @@ fn swept(
     let best = directions.first();
     if options.background == Background::Swept {
         let best = best.ok_or(BackgroundError::NoDirection)?;
-        return Ok(Some(Sweep::new(solid, best.direction, options.edge_length, options.max_hexes, monitor)?));
+        return Ok(Some(Sweep::new(solid, best.direction, &sweep_options(options), monitor)?));
     }
     let best = best.filter(|best| may_sweep(solid, axes, best.surface_capture));
-    Ok(sweep_along(solid, best, options, monitor)?)
+    Ok(sweep_along(solid, best, &sweep_options(options), monitor)?)
+}
+
+fn sweep_options(options: &HexingOptions) -> SweepOptions {
+    SweepOptions { max_hexes: options.max_hexes, ..SweepOptions::new(options.edge_length) }
 }
 
 /// The sweep along a direction, if there is one; else there are other backgrounds.
+#[inline(never)] // Compiled once for all that call it.
 fn sweep_along(
     solid: &SolidModel,
     direction: Option<&DirectionScore>,
-    options: &HexingOptions,
+    options: &SweepOptions,
     monitor: &dyn Monitor,
 ) -> Result<Option<Sweep>, Cancelled> {
     let Some(&DirectionScore { direction, .. }) = direction else { return Ok(None) };
-    match Sweep::new(solid, direction, options.edge_length, options.max_hexes, monitor) {
+    match Sweep::new(solid, direction, options, monitor) {
         Ok(sweep) => Ok(Some(sweep)),
         Err(SweepError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(None),

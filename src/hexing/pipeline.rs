@@ -122,7 +122,7 @@ fn hexed(
     if mesh.hexes.is_empty() {
         return Err(HexingError::NothingLeft { edge_length: options.edge_length });
     }
-    result.crossings = crossing_surfaces(&mesh, &faces, solid.diagonal(), monitor)?;
+    result.crossings = crossing_surfaces(&mesh, &faces, monitor)?;
     mesh.groups =
         surface_groups(&sides_of(&mesh, &faces), &found.surface_groups).expect("sides are ascending");
     if bodies.len() > 1 {

@@ -53,6 +53,8 @@ pub struct RefusedAttempt {
     pub background: Background,
     /// How far the lines of a grid were to be moved, as a share of an edge along each axis.
     pub shift: [f64; 3],
+    /// Was there to be a line of a grid, or a layer of a sweep, on both sides of what is thinner than cells?
+    pub holds_walls: bool,
     /// How many hexes the background might have.
     pub limit: u64,
     /// Why there is none, by a stable name.
@@ -69,6 +71,8 @@ pub struct AttemptReport {
     pub background: Background,
     /// How far the lines of a grid were moved, as a share of an edge along each axis.
     pub shift: [f64; 3],
+    /// Was there a line of a grid, or a layer of a sweep, on both sides of what is thinner than cells?
+    pub holds_walls: bool,
     /// Hexes of the background by level, from the coarsest.
     pub levels: Vec<usize>,
     /// Was what is thinner than cells made as thick as one?
@@ -211,7 +215,7 @@ pub struct FitCounts {
     pub farthest: f64,
     /// Where that is.
     pub place: Option<[f64; 3]>,
-    /// Nodes that were drawn in, since they lay on other parts of the boundary.
+    /// Nodes that were drawn in, since they lay on other parts of the boundary or faces there went through others.
     pub drawn_in: usize,
 }
 

@@ -188,12 +188,13 @@ impl<'a> Search<'a> {
 
     /// Makes an attempt more, if its background has no more than `limit` hexes. False if there is no such background, which
     /// is noted.
+    #[inline(never)] // Compiled once for all that call it.
     pub(super) fn another(&mut self, plan: Plan, limit: u64) -> Result<bool, HexingError> {
-        let Plan { kind: background, shift, .. } = plan;
+        let Plan { kind: background, shift, holds_walls, .. } = plan;
         match self.attempt(plan, limit) {
             Err(HexingError::Background(error)) => {
                 let (code, reason) = (error.code(), error.to_string());
-                self.refused.push(RefusedAttempt { background, shift, limit, code, reason });
+                self.refused.push(RefusedAttempt { background, shift, holds_walls, limit, code, reason });
                 Ok(false)
             }
             // It was an attempt.
@@ -219,6 +220,13 @@ impl<'a> Search<'a> {
     /// Has something been made of a background of this kind?
     pub(super) fn has_tried(&self, kind: Background) -> bool {
         self.attempts.iter().any(|attempt| attempt.background == kind)
+    }
+
+    /// Was a background of this kind made, or refused, that shows walls however thin?
+    pub(super) fn has_held_walls(&self, kind: Background) -> bool {
+        let made = self.attempts.iter().map(|attempt| (attempt.background, attempt.holds_walls));
+        let refused = self.refused.iter().map(|refused| (refused.background, refused.holds_walls));
+        made.chain(refused).any(|tried| tried == (kind, true))
     }
 
     /// Is what came of it so far not what was asked for: of another kind, or far off, or without many of the features?

@@ -1,9 +1,11 @@
-//! Boundary nodes that came to lie on other parts of the boundary are drawn in.
+//! Boundary nodes that came to lie on other parts of the boundary, or beyond them, are drawn in.
 //!
 //! Where two parts of the mesh's boundary stand for one part of the solid's, as when a slot between them was too narrow
-//! for a cell, the fit lays them on each other: the mesh would look as if it hung together there. Validity comes before
+//! for a cell, the fit lays them on each other: the mesh would look as if it hung together there. Where parts of the solid
+//! are nearer to each other than cells are long, faces that stand for them may go through each other. Validity comes before
 //! fidelity, so that the boundary yields.
 
+use super::crossings::crossing_faces;
 use crate::geometry::{Aabb, BoxIndex, Point};
 use crate::mesh::quality::{Certainty, is_positive, scaled_jacobian};
 use crate::mesh::topology::Bins;
@@ -12,13 +14,13 @@ use crate::solid::SurfaceId;
 use crate::{Cancelled, Monitor, parallel};
 
 /// How far a node is drawn in at a time, as a share of the way to the middle of its hexes.
-const STEP: f64 = 0.1;
+const STEP: f64 = 0.05;
 
 /// Halvings of a step after which a node stays where it is.
 const HALVINGS: usize = 6;
 
 /// Rounds of looking and moving.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 16;
 
 /// No cell becomes worse than this share of what its nodes had at worst.
 const KEPT: f64 = 0.5;
@@ -26,7 +28,8 @@ const KEPT: f64 = 0.5;
 /// Two nodes nearer than this share of the mesh's size are one to whoever reads the file.
 const SAME: f64 = 1e-9;
 
-/// Draws in what lies on other parts of the boundary, of which these are all faces. Returns how many nodes were moved.
+/// Draws in what lies on other parts of the boundary or goes through them; these are all its faces. Returns the nodes that
+/// were moved.
 ///
 /// # Errors
 /// [`Cancelled`] when the monitor says so.
@@ -34,8 +37,8 @@ pub(super) fn separate(
     mesh: &mut HexMesh,
     faces: &[([NodeId; 4], SurfaceId)],
     monitor: &dyn Monitor,
-) -> Result<usize, Cancelled> {
-    let mut moved = vec![false; mesh.positions.len()];
+) -> Result<Vec<NodeId>, Cancelled> {
+    let mut moved = Vec::new();
     let mut boundary: Vec<NodeId> = faces.iter().flat_map(|&(quad, _)| quad).collect();
     boundary.sort_unstable();
     boundary.dedup();
@@ -43,6 +46,8 @@ pub(super) fn separate(
     for _ in 0..ROUNDS {
         let mut nodes = coincident(mesh, &boundary);
         nodes.extend(check_hexes_within(mesh, monitor)?.iter().filter_map(hanging));
+        let crossed = crossing_faces(mesh, faces, monitor)?;
+        nodes.extend(crossed.into_iter().flat_map(|(pair, _)| pair).flat_map(|face| faces[face].0));
         nodes.sort_unstable();
         nodes.dedup();
         if nodes.is_empty() {
@@ -53,10 +58,14 @@ pub(super) fn separate(
             .get_or_insert_with(|| Bins::of(mesh.positions.len(), corners.len(), |k| corners[k].index()));
         for node in nodes {
             let hexes: Vec<usize> = at.at(node.index()).iter().map(|&k| k as usize / 8).collect();
-            moved[node.index()] |= draw_in(mesh, node, &hexes);
+            if draw_in(mesh, node, &hexes) {
+                moved.push(node);
+            }
         }
     }
-    Ok(moved.into_iter().filter(|&moved| moved).count())
+    moved.sort_unstable();
+    moved.dedup();
+    Ok(moved)
 }
 
 /// The node that lies where it does not belong.
@@ -109,10 +118,8 @@ mod tests {
     use crate::mesh::topology::hex_boundary;
     use crate::mesh::{GridOptions, check_hexes, hex_grid};
 
-    fn separated(mesh: &mut HexMesh) -> usize {
-        let faces: Vec<_> =
-            hex_boundary(&mesh.hexes).into_iter().map(|(quad, _)| (quad, SurfaceId(0))).collect();
-        separate(mesh, &faces, &Silent).unwrap()
+    fn faces(mesh: &HexMesh) -> Vec<([NodeId; 4], SurfaceId)> {
+        hex_boundary(&mesh.hexes).into_iter().map(|(quad, _)| (quad, SurfaceId(0))).collect()
     }
 
     /// Two boxes of 2 x 2 x 2 cells, `gap` apart along x.
@@ -129,20 +136,37 @@ mod tests {
         mesh
     }
 
+    /// Draws two boxes apart: of each the side towards the other moves, and no more than faces beside it.
+    fn drawn_apart(gap: f64, is_wrong: impl Fn(&HexMesh) -> bool) {
+        let mut mesh = boxes(gap);
+        assert!(is_wrong(&mesh));
+        let before = mesh.positions.clone();
+        let faces = faces(&mesh);
+        let moved = separate(&mut mesh, &faces, &Silent).unwrap();
+        assert_eq!(check_hexes(&mesh), []);
+        assert_eq!(crossing_faces(&mesh, &faces, &Silent).unwrap(), []);
+        let is_near = |n: &NodeId| (1.0 + gap..=3.0).contains(&before[n.index()].x);
+        assert!(!moved.is_empty() && moved.is_sorted() && moved.iter().all(is_near), "{moved:?}");
+        let stays = |n: usize| mesh.positions[n] == before[n] || moved.contains(&NodeId::new(n));
+        assert!((0..before.len()).all(stays));
+    }
+
     #[test]
     fn what_touches_is_drawn_apart() {
-        let mut mesh = boxes(0.0);
-        assert!(check_hexes(&mesh).iter().any(|defect| hanging(defect).is_some()));
-        let moved = separated(&mut mesh);
-        assert!(moved > 0 && moved <= 18, "{moved}");
-        assert_eq!(check_hexes(&mesh), []);
+        drawn_apart(0.0, |mesh| check_hexes(mesh).iter().any(|defect| hanging(defect).is_some()));
+    }
+
+    #[test]
+    fn what_goes_through_each_other_is_drawn_apart() {
+        drawn_apart(-0.1, |mesh| !crossing_faces(mesh, &faces(mesh), &Silent).unwrap().is_empty());
     }
 
     #[test]
     fn what_stands_apart_stays() {
         let mut mesh = boxes(0.01);
         let before = mesh.clone();
-        assert_eq!(separated(&mut mesh), 0);
+        let faces = faces(&mesh);
+        assert_eq!(separate(&mut mesh, &faces, &Silent).unwrap(), []);
         assert_eq!(mesh, before);
     }
 }

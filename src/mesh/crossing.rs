@@ -37,7 +37,7 @@ pub(crate) fn crossings(
 }
 
 /// A place where two triangles meet that should not.
-fn meeting(a: [Point; 3], b: [Point; 3], are_neighbours: bool, tolerance: f64) -> Option<Point> {
+pub(crate) fn meeting(a: [Point; 3], b: [Point; 3], are_neighbours: bool, tolerance: f64) -> Option<Point> {
     let [normal_a, normal_b] = [a, b].map(|t| (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero());
     let above_a = b.map(|p| normal_a.dot(p - a[0]));
     let above_b = a.map(|p| normal_b.dot(p - b[0]));

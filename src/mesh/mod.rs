@@ -22,7 +22,7 @@ mod volume;
 mod weld;
 
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
-pub(crate) use crossing::crossings;
+pub(crate) use crossing::{crossings, meeting};
 pub(crate) use distance::farthest_from_quads;
 pub use distance::{Distance, Distances, distances_of_hexes};
 pub use face_groups::FaceGroups;

@@ -76,6 +76,27 @@ pub(crate) fn cylinder(n: u32) -> PolygonMesh {
     mesh
 }
 
+/// Turns a profile of (radius, height), from axis to axis, around z in `n` steps.
+pub(crate) fn lathe(profile: &[[f64; 2]], n: u32) -> PolygonMesh {
+    let mut mesh = PolygonMesh::default();
+    for &[r, z] in profile {
+        mesh.positions.extend((0..n).map(|i| {
+            let (y, x) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(n));
+            Point::new(r * x, r * y, z)
+        }));
+    }
+    let last = profile.len() as u32 - 1;
+    mesh.push_face((0..n).rev().map(NodeId));
+    mesh.push_face((last * n..(last + 1) * n).map(NodeId));
+    for ring in 0..last {
+        for i in 0..n {
+            let j = (i + 1) % n;
+            mesh.push_face([i, j, n + j, n + i].map(|k| NodeId(ring * n + k)));
+        }
+    }
+    mesh
+}
+
 /// Both surfaces in one.
 pub(crate) fn both(mut a: PolygonMesh, b: &PolygonMesh) -> PolygonMesh {
     let first = a.positions.len() as u32;

@@ -131,7 +131,7 @@ export interface BodyReport {
   /** What came of each attempt. */
   attempts: SolidAttempt[];
   /** Further attempts for which there was no background: what kind, of how many hexes at most, and why there is none. */
-  refused: { background: Background; shift: Vector; limit: number; code: string; reason: string }[];
+  refused: { background: Background; shift: Vector; holdsWalls: boolean; limit: number; code: string; reason: string }[];
   /** Which attempt was kept; null for a body that is too thin for any hex, and not in the mesh. */
   kept: number | null;
 }
@@ -166,6 +166,8 @@ export interface SolidAttempt {
   background: Background;
   /** How far the lines of a grid were moved, as a share of an edge along each axis. */
   shift: Vector;
+  /** Was there a line of a grid, or a layer of a sweep, on both sides of what is thinner than cells? */
+  holdsWalls: boolean;
   /** Hexes of the background by level, from the coarsest. */
   levels: number[];
   /** Whether what is thinner than cells was made as thick as one. */

@@ -10,7 +10,7 @@
 
 use glam::DMat3;
 
-use super::lines::{Plane, lines};
+use super::lines::{self, Plane, lines};
 use super::rows::Rows;
 use super::swept::SweepError;
 use super::touched::touched;
@@ -32,6 +32,8 @@ pub struct AlignedGrid {
     /// How the lines are moved along each axis, as a share of an edge from 0 to 1: so that another try may succeed
     /// where one failed. Between lines that planar surfaces hold there are more of them instead.
     pub shift: [f64; 3],
+    /// Do lines stand in both sides of walls and slots that are thinner than cells are to be? Cells in them are as thin.
+    pub holds_walls: bool,
     /// Refuse a grid of more hexes than this.
     pub max_hexes: u64,
 }
@@ -39,7 +41,13 @@ pub struct AlignedGrid {
 impl AlignedGrid {
     /// A grid along x, y and z of at most 16 million hexes.
     pub fn new(edge_length: f64) -> Self {
-        Self { edge_length, axes: DMat3::IDENTITY, shift: [0.0; 3], max_hexes: 16_000_000 }
+        Self {
+            edge_length,
+            axes: DMat3::IDENTITY,
+            shift: [0.0; 3],
+            holds_walls: false,
+            max_hexes: 16_000_000,
+        }
     }
 }
 
@@ -177,19 +185,15 @@ fn laid(
     (reach, in_blocks): (f64, bool),
     monitor: &dyn Monitor,
 ) -> Result<(HexMesh, HexBlocks), BackgroundError> {
-    let &AlignedGrid { edge_length, axes, shift, max_hexes } = options;
+    let &AlignedGrid { edge_length, axes, shift, holds_walls, max_hexes } = options;
     check_size(solid, edge_length, max_hexes)?;
     monitor.checkpoint(BACKGROUND, 0.0)?;
-    let to_grid = axes.transpose();
-    let points = parallel::try_collect(solid.points().len(), monitor, |p| to_grid * solid.points()[p])?;
+    let points = along(solid, axes, monitor)?;
     let corners = |t: usize| solid.triangles()[t].map(|p| points[p as usize]);
-    let bounds = Aabb::around(&points);
+    let planes = planes(solid, axes, &points, edge_length);
     let lines: [Vec<f64>; 3] = std::array::from_fn(|axis| {
-        let normal = axes.col(axis);
-        let planes = solid.surfaces().iter();
-        let planes: Vec<Plane> =
-            planes.filter_map(|s| perpendicular(s, normal, axis, &corners, edge_length)).collect();
-        lines([bounds.min[axis], bounds.max[axis]], &planes, edge_length, shift[axis])
+        let Planes { extent, planes } = &planes[axis];
+        lines(*extent, planes, edge_length, shift[axis], holds_walls)
     });
     monitor.checkpoint(BACKGROUND, 0.1)?;
     let shell = touched(&lines, reach, solid.triangles().len(), corners, monitor)?;
@@ -214,6 +218,42 @@ fn laid(
     let blocks = if in_blocks { blocks_of(&cells) } else { HexBlocks::default() };
     monitor.checkpoint(BACKGROUND, 1.0)?;
     Ok((mesh, blocks))
+}
+
+/// Has the solid walls or slots that lines stand in both sides of only where that is wanted?
+pub(in super::super) fn has_walls(
+    solid: &SolidModel,
+    axes: DMat3,
+    edge_length: f64,
+    monitor: &dyn Monitor,
+) -> Result<bool, Cancelled> {
+    let points = along(solid, axes, monitor)?;
+    let planes = planes(solid, axes, &points, edge_length);
+    Ok(planes.iter().any(|Planes { extent, planes }| lines::has_walls(*extent, planes, edge_length)))
+}
+
+/// The solid's points along the axes.
+fn along(solid: &SolidModel, axes: DMat3, monitor: &dyn Monitor) -> Result<Vec<Point>, Cancelled> {
+    let to_grid = axes.transpose();
+    parallel::try_collect(solid.points().len(), monitor, |p| to_grid * solid.points()[p])
+}
+
+/// The planar surfaces perpendicular to an axis, and how far the solid reaches along it.
+struct Planes {
+    extent: [f64; 2],
+    planes: Vec<Plane>,
+}
+
+/// Those of each axis, of a solid with these points along the axes.
+fn planes(solid: &SolidModel, axes: DMat3, points: &[Point], edge_length: f64) -> [Planes; 3] {
+    let bounds = Aabb::around(points);
+    let corners = |t: usize| solid.triangles()[t].map(|p| points[p as usize]);
+    std::array::from_fn(|axis| {
+        let surfaces = solid.surfaces().iter();
+        let planes =
+            surfaces.filter_map(|s| perpendicular(s, axes.col(axis), axis, &corners, edge_length)).collect();
+        Planes { extent: [bounds.min[axis], bounds.max[axis]], planes }
+    })
 }
 
 /// The blocks of two by two by two cells, as even and odd places make them.
@@ -267,9 +307,17 @@ fn perpendicular(
     if normal.dot(direction).abs() < 0.9 {
         return None;
     }
-    let along = surface.triangles.iter().flat_map(|&t| corners(t as usize).map(|p| p[axis]));
-    let [least, most] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-    (most - least <= FLAT * edge_length).then_some(Plane { at: least.midpoint(most), area: surface.area })
+    let points = surface.triangles.iter().flat_map(|&t| corners(t as usize)).collect::<Vec<Point>>();
+    let bounds = Aabb::around(&points);
+    let [least, most] = [bounds.min[axis], bounds.max[axis]];
+    let across = [1, 2].map(|k| (axis + k) % 3).map(|k| [bounds.min[k], bounds.max[k]]);
+    let is_above = normal.dot(direction) > 0.0;
+    (most - least <= FLAT * edge_length).then_some(Plane {
+        at: least.midpoint(most),
+        area: surface.area,
+        is_above,
+        across,
+    })
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]

@@ -29,8 +29,9 @@ const FLAT: f64 = 0.01;
 /// The cosine of 1 degree: normals closer than this to the direction are along it.
 const ALONG: f64 = 0.999_847_7;
 
-/// Heights along a unit direction, ascending.
-pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> Vec<f64> {
+/// Heights along a unit direction, ascending; `tolerance` is the share of [`ONE_LEVEL`] within which planar surfaces are one
+/// level.
+pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64, tolerance: f64) -> Vec<f64> {
     let Extent { low, high } = Extent::of(solid.points().iter().copied(), direction);
     let mut levels = Levels { at: vec![low, high], edge_length };
     let (mut planes, mut curves, mut round) = (Vec::new(), Vec::new(), Vec::new());
@@ -51,7 +52,8 @@ pub(super) fn levels(solid: &SolidModel, direction: Point, edge_length: f64) -> 
     for list in [&mut planes, &mut curves, &mut round] {
         put_greatest_first(list, |&(size, _)| size);
     }
-    planes.iter().chain(&curves).for_each(|(_, extent)| levels.add(extent.middle(), ONE_LEVEL));
+    planes.iter().for_each(|(_, extent)| levels.add(extent.middle(), tolerance * ONE_LEVEL));
+    curves.iter().for_each(|(_, extent)| levels.add(extent.middle(), ONE_LEVEL));
     for (_, extent) in round {
         [extent.low, extent.middle(), extent.high].into_iter().for_each(|at| levels.add(at, MERGED_AROUND));
     }
@@ -99,7 +101,7 @@ mod tests {
 
     #[test]
     fn pins_across_have_levels_at_both_ends_and_in_the_middle() {
-        let found = levels(&pin(0.6), Point::Z, 1.0);
+        let found = levels(&pin(0.6), Point::Z, 1.0, 1.0);
         assert_eq!(found.len(), 3, "{found:?}");
         assert!(found.iter().zip([-0.6, 0.0, 0.6]).all(|(a, b)| (a - b).abs() < 1e-3), "{found:?}");
     }
@@ -110,15 +112,15 @@ mod tests {
         let half = |radius: f64| {
             let ridge =
                 |p: Point| Point::new(2.0 * p.z, radius * p.x, radius * p.y.max(0.0) - f64::from(p.y < -0.5));
-            levels(&solid(&moved(cylinder(96), ridge)), Point::Z, 1.0)
+            levels(&solid(&moved(cylinder(96), ridge)), Point::Z, 1.0, 1.0)
         };
         assert_eq!([half(1.0).len(), half(0.3).len()], [4, 3]);
     }
 
     #[test]
     fn thick_and_thin_pins_and_those_along_have_none_in_the_middle() {
-        assert_eq!(levels(&pin(1.7), Point::Z, 1.0).len(), 2);
-        assert_eq!(levels(&pin(0.3), Point::Z, 1.0).len(), 2);
-        assert_eq!(levels(&pin(0.6), Point::X, 1.0).len(), 2);
+        assert_eq!(levels(&pin(1.7), Point::Z, 1.0, 1.0).len(), 2);
+        assert_eq!(levels(&pin(0.3), Point::Z, 1.0, 1.0).len(), 2);
+        assert_eq!(levels(&pin(0.6), Point::X, 1.0, 1.0).len(), 2);
     }
 }

@@ -2,14 +2,16 @@
 //!
 //! 1. Planar surfaces perpendicular to the axis with more than half of a square of edges, the larger first, take a line
 //!    unless there is one within .45 edges: so thin that cells still are good. Those of a solid that is thinner than that, such as
-//!    a sheet, both do, however thin it is.
+//!    a sheet, both do, however thin it is. So do, where that is wanted, both sides of a wall, or of a slot.
 //! 2. Between two such lines cells are alike and about an edge long.
 //! 3. Beyond the first and the last, or everywhere if there are none, cells are an edge long.
+
+use crate::parallel::put_greatest_first;
 
 /// Share of a square of edges: a smaller surface moves no line.
 const LEAST_AREA: f64 = 0.5;
 /// Share of an edge: lines are no closer.
-const LEAST_GAP: f64 = 0.45;
+pub(in super::super) const LEAST_GAP: f64 = 0.45;
 /// Share of an edge: surfaces that are no further apart share a line.
 const SAME: f64 = 0.01;
 /// Lines beyond the solid on each side: what touches it has cells around it.
@@ -22,13 +24,34 @@ pub(super) struct Plane {
     pub at: f64,
     /// Its area.
     pub area: f64,
+    /// Is the solid below it?
+    pub is_above: bool,
+    /// Where it is across the axis.
+    pub across: [[f64; 2]; 2],
+}
+
+impl Plane {
+    /// Is there a wall between this plane and another, or a slot, with sides of about so large an area at least?
+    fn faces(&self, other: &Self, area: f64) -> bool {
+        let both = |k: usize| {
+            let ([a, b], [c, d]) = (self.across[k], other.across[k]);
+            (b.min(d) - a.max(c)).max(0.0)
+        };
+        self.is_above != other.is_above && both(0) * both(1) > area
+    }
 }
 
 /// The lines around a solid that reaches from `least` to `most`, ascending, [`BEYOND`] it on both sides. `shift` is a
 /// share of an edge, 0 to 1: lines that no surface holds move by it, and between lines that surfaces hold there are
-/// more, the larger it is.
-pub(super) fn lines([least, most]: [f64; 2], planes: &[Plane], edge: f64, shift: f64) -> Vec<f64> {
-    let held = held([least, most], planes, edge);
+/// more, the larger it is. `holds_walls` says whether both sides of walls and slots hold lines.
+pub(super) fn lines(
+    [least, most]: [f64; 2],
+    planes: &[Plane],
+    edge: f64,
+    shift: f64,
+    holds_walls: bool,
+) -> Vec<f64> {
+    let held = held([least, most], planes, edge, holds_walls);
     let (Some(&first), Some(&last)) = (held.first(), held.last()) else {
         let steps = (((most - least) / edge - SAME).ceil()).max(1.0);
         let first = (least + most) / 2.0 + (shift - 0.5 * steps) * edge;
@@ -52,7 +75,7 @@ fn steps(gap: f64, edge: f64, shift: f64) -> u32 {
 }
 
 /// The lines that surfaces hold, ascending.
-fn held([least, most]: [f64; 2], planes: &[Plane], edge: f64) -> Vec<f64> {
+fn held([least, most]: [f64; 2], planes: &[Plane], edge: f64, holds_walls: bool) -> Vec<f64> {
     let is_at = |plane: &&Plane, end: f64| (plane.at - end).abs() < 0.25 * (most - least);
     let area = |end: f64| planes.iter().filter(|p| is_at(p, end)).map(|plane| plane.area).sum::<f64>();
     let is_held = |end: f64| area(end) > LEAST_AREA * edge * edge;
@@ -60,25 +83,59 @@ fn held([least, most]: [f64; 2], planes: &[Plane], edge: f64) -> Vec<f64> {
         return vec![least, most];
     }
     let mut groups = groups(planes, edge);
-    groups.retain(|group| group.area > LEAST_AREA * edge * edge);
-    groups.sort_unstable_by(|a, b| b.area.total_cmp(&a.area).then(a.at.total_cmp(&b.at)));
-    let mut held: Vec<f64> = Vec::new();
+    groups.retain(|group| group.area > LEAST_AREA * edge * edge || holds_walls && group.length() > edge);
+    put_greatest_first(&mut groups, |group| group.area);
+    let mut held: Vec<Group> = Vec::new();
     for group in groups {
-        if held.iter().all(|line| (line - group.at).abs() >= LEAST_GAP * edge) {
-            held.push(group.at);
+        let place = held.partition_point(|line| line.at < group.at);
+        let mut beside = held[place.saturating_sub(1)..].iter().take(if place > 0 { 2 } else { 1 });
+        let has_room = |line: &Group| {
+            (line.at - group.at).abs() >= LEAST_GAP * edge || holds_walls && line.faces(&group, edge)
+        };
+        if beside.all(has_room) {
+            held.insert(place, group);
         }
     }
-    held.sort_unstable_by(f64::total_cmp);
-    held
+    held.into_iter().map(|group| group.at).collect()
 }
 
-/// Surfaces of one plane as one: where the largest is, with the area of all.
-fn groups(planes: &[Plane], edge: f64) -> Vec<Plane> {
+/// Are there walls or slots so thin that lines stand in both their sides only where that is wanted?
+pub(super) fn has_walls([least, most]: [f64; 2], planes: &[Plane], edge: f64) -> bool {
+    let held = |holds_walls| held([least, most], planes, edge, holds_walls);
+    let is_thin = |pair: &[f64]| pair[1] - pair[0] < LEAST_GAP * edge;
+    held(true).windows(2).any(is_thin) && held(true) != held(false)
+}
+
+/// Surfaces of one plane.
+#[derive(Clone)]
+struct Group {
+    /// Where the largest is.
+    at: f64,
+    /// Of all.
+    area: f64,
+    planes: Vec<Plane>,
+}
+
+impl Group {
+    /// The greatest length of a surface: of the end of a wall that is thin.
+    fn length(&self) -> f64 {
+        let lengths = self.planes.iter().flat_map(|plane| plane.across.map(|[least, most]| most - least));
+        lengths.fold(0.0, f64::max)
+    }
+
+    fn faces(&self, other: &Self, edge: f64) -> bool {
+        let area = LEAST_AREA * edge * edge;
+        self.planes.iter().any(|plane| other.planes.iter().any(|other| plane.faces(other, area)))
+    }
+}
+
+/// The planes, as far as surfaces share them.
+fn groups(planes: &[Plane], edge: f64) -> Vec<Group> {
     let mut sorted = planes.to_vec();
-    sorted.sort_unstable_by(|a, b| a.at.total_cmp(&b.at).then(a.area.total_cmp(&b.area)));
+    put_greatest_first(&mut sorted, |plane| -plane.at);
     let of = |group: &[Plane]| {
         let largest = group.iter().fold(group[0], |a, &b| if b.area > a.area { b } else { a });
-        Plane { at: largest.at, area: group.iter().map(|plane| plane.area).sum() }
+        Group { at: largest.at, area: group.iter().map(|plane| plane.area).sum(), planes: group.to_vec() }
     };
     sorted.chunk_by(|a, b| b.at - a.at <= SAME * edge).map(of).collect()
 }
@@ -99,12 +156,12 @@ mod tests {
     use super::*;
 
     fn plane(at: f64, area: f64) -> Plane {
-        Plane { at, area }
+        Plane { at, area, is_above: true, across: [[0.0, area], [0.0, 1.0]] }
     }
 
     /// The lines within the solid.
     fn within(extent: [f64; 2], planes: &[Plane], shift: f64) -> Vec<f64> {
-        let all = lines(extent, planes, 1.0, shift);
+        let all = lines(extent, planes, 1.0, shift, false);
         assert!(all.windows(2).all(|pair| (LEAST_GAP..1.6).contains(&(pair[1] - pair[0]))), "{all:?}");
         assert!(all[2] < extent[0] && all[all.len() - 3] > extent[1], "{all:?}");
         all.into_iter().filter(|line| (extent[0]..=extent[1]).contains(line)).collect()
@@ -134,13 +191,50 @@ mod tests {
     #[test]
     fn both_sides_of_a_sheet_hold_lines() {
         let between = |sides: &[Plane]| {
-            let all = lines([0.0, 0.1], sides, 1.0, 0.0);
+            let all = lines([0.0, 0.1], sides, 1.0, 0.0, false);
             all.into_iter().filter(|line| (0.0..=0.1).contains(line)).collect::<Vec<_>>()
         };
         assert_eq!(between(&[plane(1e-9, 9.0), plane(0.1, 9.0)]), [0.0, 0.1]);
         assert_eq!(between(&[plane(0.0, 9.0), plane(0.1, 0.2), plane(0.1, 0.4)]), [0.0, 0.1]);
         // A disc with a pin, whose end is as large as half a square of edges at most.
         assert_eq!(between(&[plane(0.0, 9.0), plane(0.1, 0.5), plane(0.03, 8.0)]).len(), 1);
+    }
+
+    /// A plane that looks up, or down, where `x` is so along the first axis across, and `y` along the second.
+    fn facing(is_above: bool, at: f64, across: [[f64; 2]; 2]) -> Plane {
+        let area = across.map(|[a, b]| b - a).iter().product();
+        Plane { at, area, is_above, across }
+    }
+
+    #[test]
+    fn both_sides_of_walls_and_slots_hold_lines_where_that_is_wanted() {
+        let wide = [[0.0, 9.0], [0.0, 5.0]];
+        let between = |planes: &[Plane], holds_walls: bool| {
+            let all = lines([0.0, 5.0], planes, 1.0, 0.0, holds_walls);
+            all.into_iter().filter(|line| (0.0..1.0).contains(line)).collect::<Vec<_>>()
+        };
+        let wall = [facing(false, 0.0, wide), facing(true, 0.1, wide)];
+        assert_eq!([between(&wall, false).len(), between(&wall, true).len()], [1, 2]);
+        assert!(has_walls([0.0, 5.0], &wall, 1.0));
+        // A slot between two walls: each plane faces those beside it.
+        let slot = [wall.as_slice(), &[facing(false, 0.15, wide), facing(true, 0.3, wide)]].concat();
+        assert_eq!(between(&slot, true), [0.0, 0.1, 0.15, 0.3]);
+        // A step, and planes that are not across from each other.
+        let step = [facing(true, 0.0, wide), facing(true, 0.1, wide)];
+        let aside = [facing(false, 0.0, wide), facing(true, 0.1, [[9.5, 20.0], [0.0, 5.0]])];
+        for planes in [step, aside] {
+            assert_eq!(between(&planes, true).len(), 1, "{planes:?}");
+            assert!(!has_walls([0.0, 5.0], &planes, 1.0));
+        }
+    }
+
+    #[test]
+    fn the_end_of_a_thin_wall_holds_a_line_where_walls_do() {
+        let end =
+            [facing(false, 0.0, [[0.0, 9.0], [0.0, 5.0]]), facing(true, 3.3, [[0.0, 0.05], [0.0, 5.0]])];
+        let held = |holds_walls| lines([0.0, 3.3], &end, 1.0, 0.0, holds_walls).contains(&3.3);
+        assert_eq!([held(false), held(true)], [false, true]);
+        assert!(!has_walls([0.0, 3.3], &end, 1.0), "no wall is across");
     }
 
     #[test]

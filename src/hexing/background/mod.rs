@@ -20,7 +20,9 @@ mod touched;
 
 pub use choose::{Background, Choice, SweptScore, choose, grid_capture, may_sweep};
 pub use drivers::{Failure, Missed, retry};
+pub(super) use grid::has_walls;
 pub use grid::{AlignedGrid, BackgroundError, check_size, estimate_hexes, grid};
+pub(super) use lines::LEAST_GAP;
 pub(super) use octree::refined;
 pub use octree::{Octree, OctreeMesh, Wanted, octree};
-pub use swept::{Sweep, SweepError};
+pub use swept::{Sweep, SweepError, SweepOptions};

@@ -54,6 +54,25 @@ impl From<FaceError> for SweepError {
     }
 }
 
+/// What [`Sweep::new`] is to make.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SweepOptions {
+    /// How long the hexes' edges are, about, in model units.
+    pub edge_length: f64,
+    /// Refuse a sweep of more hexes than this.
+    pub max_hexes: u64,
+    /// The share of the usual tolerances within which curves, and layers, are one: less than 1 where walls, or steps, that are
+    /// thinner than those are to be shown. Cells in them are as thin.
+    pub tolerance: f64,
+}
+
+impl SweepOptions {
+    /// Edges about so long, and at most 16 million hexes.
+    pub fn new(edge_length: f64) -> Self {
+        Self { edge_length, max_hexes: 16_000_000, tolerance: 1.0 }
+    }
+}
+
 /// The principal face of a solid and the layers along a direction: a mesh, once it is swept.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
@@ -65,26 +84,26 @@ pub struct Sweep {
 
 impl Sweep {
     /// Meshes the principal face along `direction`, of any length but 0, and finds the layers: these stand in planar
-    /// surfaces and curves across the direction, and around holes across it; between them edges are about `edge_length`
-    /// long.
+    /// surfaces and curves across the direction, and around holes across it; between them edges are about as long as
+    /// `options` say.
     ///
     /// # Errors
-    /// See [`SweepError`]. The number of hexes, those far outside of the solid among them, is held against `max_hexes`
+    /// See [`SweepError`]. The number of hexes, those far outside of the solid among them, is held against the limit
     /// before any is made.
     pub fn new(
         solid: &SolidModel,
         direction: Point,
-        edge_length: f64,
-        max_hexes: u64,
+        options: &SweepOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, SweepError> {
-        let heights = layers(solid, direction, edge_length, max_hexes)?;
+        let &SweepOptions { edge_length, max_hexes, tolerance } = options;
+        let heights = layers(solid, direction, options)?;
         let steps = heights.len() as u64 - 1;
         let max_quads = max_hexes / steps;
         let too_many =
             |quads: f64| SweepError::TooManyHexes { hexes: quads * steps as f64, limit: max_hexes };
-        let face = match principal_face(solid, direction, &RegionOptions { edge_length, max_quads }, monitor)
-        {
+        let region = RegionOptions { edge_length, max_quads };
+        let face = match principal_face(solid, direction, &region, tolerance, monitor) {
             Err(FaceError::TooManyQuads { quads, .. }) => return Err(too_many(quads)),
             // The estimate may have been too low.
             Ok(face) if face.mesh.quads.len() as u64 > 2 * max_quads => {
@@ -162,17 +181,13 @@ fn one_fan_a_point(mut face: PrincipalFace) -> PrincipalFace {
 }
 
 /// The heights of all layers along the direction, ascending.
-fn layers(
-    solid: &SolidModel,
-    direction: Point,
-    edge_length: f64,
-    max_hexes: u64,
-) -> Result<Vec<f64>, SweepError> {
+fn layers(solid: &SolidModel, direction: Point, options: &SweepOptions) -> Result<Vec<f64>, SweepError> {
+    let &SweepOptions { edge_length, max_hexes, tolerance } = options;
     if edge_length.is_nan() || edge_length <= 0.0 || edge_length.is_infinite() {
         return Err(FaceError::EdgeLength(edge_length).into());
     }
     let direction = direction.try_normalize().ok_or(FaceError::Direction)?;
-    let levels = levels(solid, direction, edge_length);
+    let levels = levels(solid, direction, edge_length, tolerance);
     let about = (levels[levels.len() - 1] - levels[0]) / edge_length;
     if about > max_hexes as f64 {
         return Err(SweepError::TooManyHexes { hexes: about, limit: max_hexes });

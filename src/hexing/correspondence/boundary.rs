@@ -136,15 +136,26 @@ impl Boundary {
         })
     }
 
-    /// Is there an edge of the boundary all along from `a` to `b`, as where a layer of hexes is as thick as a plate?
-    pub fn has_edge(&self, a: Point, b: Point) -> bool {
+    /// Are there edges of the boundary all along from `a` to `b`, as where layers of hexes are together as thick as a wall?
+    pub fn has_edges(&self, a: Point, b: Point) -> bool {
+        let (length, at) = (a.distance(b), |node: u32| self.points[node as usize]);
         let near = |p: Point| {
             let node = self.tree.nearest_neighbor(p.to_array())?.data;
-            let is_there = self.points[node as usize].distance(p) <= THERE * a.distance(b);
-            is_there.then_some(node)
+            (at(node).distance(p) <= THERE * length).then_some(node)
         };
-        let Some([a, b]) = near(a).zip(near(b)).map(|(a, b)| [a, b]) else { return false };
-        self.spokes_of(a).iter().any(|spoke| spoke.to == b)
+        let Some((mut node, end)) = near(a).zip(near(b)) else { return false };
+        let is_along = |p: Point| (p - a).cross(b - a).length() <= THERE * length * length;
+        while node != end {
+            let ahead = self
+                .spokes_of(node)
+                .iter()
+                .map(|spoke| spoke.to)
+                .filter(|&to| to == end || at(to).distance(b) < at(node).distance(b) && is_along(at(to)));
+            let next = ahead.min_by(|&p, &q| at(p).distance(b).total_cmp(&at(q).distance(b)));
+            let Some(next) = next else { return false };
+            node = next;
+        }
+        true
     }
 
     /// The area of a quad along its outward normal.

@@ -216,7 +216,7 @@ pub(super) fn give_up_short(network: &mut Network, boundary: &Boundary) {
         let is_arc = network.ends(curve).is_some_and(|[a, b]| a != b);
         if is_arc {
             network.length(curve) < SHORT_ARC * boundary.short_length_near(middle)
-                && !boundary.has_edge(start, end)
+                && !boundary.has_edges(start, end)
         } else {
             network.length(curve) < SHORT_LOOP * boundary.length_near(middle)
         }

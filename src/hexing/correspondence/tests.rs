@@ -155,13 +155,15 @@ fn a_plate_of_one_layer_keeps_both_faces() {
     check(&core(&solid, 0.45), &solid, [12, 0, 0]);
 }
 
-/// Where cells are wide and low, a curve as short as they are high is an edge.
+/// Where cells are wide and low, a curve as short as they are high, or as two layers are together, is one edge, or two.
 #[test]
-fn a_flat_plate_of_one_layer_keeps_its_short_curves() {
-    let flat = |p: Point| p.with_z(0.45 * p.z);
-    let mut mesh = core(&solid(&cuboid([6, 5, 1])), 1.0);
-    mesh.positions.iter_mut().for_each(|p| *p = flat(*p));
-    check(&mesh, &solid(&moved(cuboid([6, 5, 1]), flat)), [12, 0, 0]);
+fn a_flat_plate_keeps_its_short_curves() {
+    for (layers, height) in [(1, 0.45), (2, 0.1)] {
+        let (plate, flat) = (cuboid([6, 5, layers]), |p: Point| p.with_z(height * p.z));
+        let mut mesh = core(&solid(&plate), 1.0);
+        mesh.positions.iter_mut().for_each(|p| *p = flat(*p));
+        check(&mesh, &solid(&moved(plate, flat)), [12, 0, 0]);
+    }
 }
 
 /// Curves that are given up later, one after the other, leave a correspondence that holds what it promises.

@@ -29,6 +29,8 @@ pub(super) struct Arc {
     /// The points along it; the first again at the end if it is closed.
     pub(super) points: Vec<u32>,
     pub(super) outline: bool,
+    /// Is it closed, and no node on it? Then it may as well start elsewhere.
+    pub(super) is_loose: bool,
 }
 
 impl Arc {
@@ -87,7 +89,7 @@ impl Graph {
             at = if a == at { b } else { a };
             points.push(at);
             if nodes[at as usize] || at == start {
-                return Arc { points, outline };
+                return Arc { points, outline, is_loose: !nodes[at as usize] };
             }
             let star = &stars[at as usize];
             s = if star[0] == s { star[1] } else { star[0] };

@@ -5,6 +5,7 @@
 //! direction.
 
 mod cells;
+mod course;
 mod cover;
 mod embed;
 mod field;
@@ -21,6 +22,7 @@ mod sample;
 mod scale;
 mod shadow;
 mod smooth;
+mod strips;
 mod tidy;
 mod triangulation;
 

@@ -47,9 +47,22 @@ pub(super) struct Projected {
     pub(super) points: Vec<DVec2>,
 }
 
-/// Projects all feature curves and rims.
-pub(super) fn project(solid: &SolidModel, projection: &Projection, shadow: &Shadow) -> Projected {
-    let low = low_walls(solid, projection);
+impl Projected {
+    /// All curves: those that bound what is covered first.
+    pub(super) fn curves(&self) -> impl Iterator<Item = &Vec<DVec2>> {
+        let (outlines, rims) = self.rims.split_at(self.outlines);
+        outlines.iter().chain(&self.across).chain(rims).chain(&self.features)
+    }
+}
+
+/// Projects all feature curves and rims; `tolerance` is the share of the usual height of walls that are not seen.
+pub(super) fn project(
+    solid: &SolidModel,
+    projection: &Projection,
+    shadow: &Shadow,
+    tolerance: f64,
+) -> Projected {
+    let low = low_walls(solid, projection, tolerance * ONE_LEVEL);
     let mut rim = rim_edges(solid, projection, &low);
     let mut projected = Projected::default();
     for curve in solid.curves() {
@@ -109,10 +122,10 @@ fn without_doubles(curve: &mut Vec<DVec2>) {
     curve.dedup_by(|a, b| a.distance(*b) < 1e-9);
 }
 
-/// Of each surface: is it a wall so low that its top and foot are one level?
-fn low_walls(solid: &SolidModel, projection: &Projection) -> Vec<bool> {
+/// Of each surface: is it a wall so low, in edge lengths, that its top and foot are one level?
+fn low_walls(solid: &SolidModel, projection: &Projection, low: f64) -> Vec<bool> {
     let along = projection.direction();
-    let low = ONE_LEVEL * projection.scale.edge_length();
+    let low = low * projection.scale.edge_length();
     let is_low = |s: &Surface| Extent::of_surface(solid, s, along).thickness() < low;
     let is_wall = |s: &Surface| {
         let leans =
@@ -199,7 +212,7 @@ mod tests {
             let pin = moved(cylinder(96), |p| Point::new(p.z, radius * p.x, radius * p.y));
             let solid = solid(&pin);
             let projection = Projection::new(solid.points(), direction, 1.0).unwrap();
-            let curves = project(&solid, &projection, &Shadow::new(&solid, &projection)).across;
+            let curves = project(&solid, &projection, &Shadow::new(&solid, &projection), 1.0).across;
             let [u, v, _] = projection.axes;
             let place = |&p: &DVec2| {
                 let p = projection.scale.model_from_unit(p);
@@ -226,7 +239,7 @@ mod tests {
             let x = if (4.0..=8.0).contains(&p.x) { p.x + 0.4 } else { p.x };
             Point::new(x, p.y, [0.0, thickness - depth, thickness][p.z as usize])
         });
-        principal_face(&solid(&plate), Point::Z, &RegionOptions::new(1.0), &Silent).unwrap()
+        principal_face(&solid(&plate), Point::Z, &RegionOptions::new(1.0), 1.0, &Silent).unwrap()
     }
 
     #[test]

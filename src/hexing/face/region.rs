@@ -127,7 +127,7 @@ pub fn quad_region(
         embedding.keep(points[corner as usize]);
     }
     let graph = without_outer_curves(embedding.graph, monitor)?;
-    let samples = sample(&graph, &graph.arcs(), monitor)?;
+    let samples = sample(&graph, &graph.arcs(), true, monitor)?;
     let quads = mesh(&samples, area, monitor)?;
     Ok(RegionMesh { dropped, ..region_mesh(quads, &scale) })
 }

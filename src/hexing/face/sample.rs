@@ -2,7 +2,8 @@
 //! split into.
 //!
 //! 1. Each arc gets `max(1, round(length / 2h))` segments; closed ones an even number, and at least 6.
-//! 2. Where segments of two arcs cross, or fall together, both arcs get twice as many. Arcs that cross nowhere are
+//! 2. Both sides of a narrow strip get as many, across from each other (`strips`).
+//! 3. Where segments of two arcs cross, or fall together, both arcs get twice as many. Arcs that cross nowhere are
 //!    told apart in the end.
 //!
 //! Lengths here are in units of 2h.
@@ -11,17 +12,12 @@ use std::collections::HashMap;
 
 use glam::DVec2;
 
-use super::graph::{Arc, Graph, turn};
+use super::course::Course;
+use super::graph::{Arc, Graph};
 use super::mesher::{FaceError, SAMPLE};
+use super::strips::Strips;
 use super::triangulation::{Outcome, Triangulation};
-use crate::hexing::extent::ROUNDED;
 use crate::{Cancelled, Monitor};
-
-/// Segments of a closed arc, at least.
-const LEAST_CLOSED: usize = 6;
-
-/// Turn that one segment of an open arc may span, in degrees, unless the arc is short.
-const MOST_TURN: f64 = 90.0;
 
 /// Times that segments are halved to tell arcs apart, and how many times as many nodes as at first they may get by that.
 const HALVINGS: u32 = 10;
@@ -69,74 +65,45 @@ impl From<SampleError> for FaceError {
     }
 }
 
-/// Places nodes along all arcs, so that neither the coarse segments nor the fine ones cross.
-pub(super) fn sample(graph: &Graph, arcs: &[Arc], monitor: &dyn Monitor) -> Result<Samples, SampleError> {
+/// Places nodes along all arcs, so that neither the coarse segments nor the fine ones cross; across from each other in strips
+/// between all of them, or those of the outline alone.
+pub(super) fn sample(
+    graph: &Graph,
+    arcs: &[Arc],
+    all_strips: bool,
+    monitor: &dyn Monitor,
+) -> Result<Samples, SampleError> {
     monitor.checkpoint(SAMPLE, 0.0)?;
     let courses: Vec<Course> = arcs.iter().map(|arc| Course::new(graph, arc)).collect();
-    let mut counts: Vec<usize> = courses.iter().map(Course::count).collect();
+    let strips = Strips::between(&courses, all_strips);
+    let mut counts = strips.counts();
     let most = MOST * counts.iter().sum::<usize>();
     let mut last = Vec::new();
     for _ in 0..HALVINGS {
         if counts.iter().sum::<usize>() > most {
             break;
         }
-        let samples = place(graph, arcs, &courses, &counts);
+        let samples = place(graph, arcs, &strips, &counts);
         let crowded = crowded(&samples, arcs.len(), monitor)?;
         last = (0..arcs.len()).filter(|&arc| crowded[arc]).collect();
         if last.is_empty() {
             monitor.checkpoint(SAMPLE, 1.0)?;
             return Ok(samples);
         }
-        last.iter().for_each(|&arc| counts[arc] *= 2);
+        let mut is_crowded = vec![false; arcs.len()];
+        last.iter().for_each(|&arc| is_crowded[strips.strip[arc] as usize] = true);
+        let crowded = counts.iter_mut().zip(&strips.strip).filter(|(_, strip)| is_crowded[**strip as usize]);
+        crowded.for_each(|(count, _)| *count *= 2);
     }
     Err(SampleError::Crowded(last))
 }
 
-/// An arc by its length.
-struct Course {
-    points: Vec<DVec2>,
-    /// The length up to each point.
-    along: Vec<f64>,
-    closed: bool,
-}
-
-impl Course {
-    fn new(graph: &Graph, arc: &Arc) -> Self {
-        let points: Vec<DVec2> = arc.points.iter().map(|&p| graph.points[p as usize]).collect();
-        let mut along = vec![0.0];
-        for pair in points.windows(2) {
-            along.push(along[along.len() - 1] + pair[0].distance(pair[1]));
-        }
-        Self { points, along, closed: arc.is_closed() }
+fn place(graph: &Graph, arcs: &[Arc], strips: &Strips, counts: &[usize]) -> Samples {
+    let mut halves: Vec<Vec<DVec2>> = Vec::with_capacity(arcs.len());
+    for (arc, &count) in counts.iter().enumerate() {
+        let across = strips.across[arc].map(|earlier| halves[earlier].as_slice());
+        halves.push(strips.halves(arc, count, across));
     }
-
-    fn length(&self) -> f64 {
-        self.along[self.along.len() - 1]
-    }
-
-    /// How many segments it gets.
-    fn count(&self) -> usize {
-        let count = |length: f64| (length + ROUNDED).round() as usize;
-        if self.closed {
-            return (2 * count(self.length() / 2.0)).max(LEAST_CLOSED);
-        }
-        let count = count(self.length()).max(1);
-        let turns = self.points.windows(3).map(|p| turn(p[1] - p[0], p[2] - p[1]));
-        let bent = (turns.sum::<f64>() / MOST_TURN - 1e-3).ceil() as usize;
-        if self.length() > 0.5 { count.max(bent) } else { count }
-    }
-
-    /// The point at `share` of the length.
-    fn at(&self, share: f64) -> DVec2 {
-        let length = share * self.length();
-        let k = self.along.partition_point(|&along| along <= length).clamp(1, self.along.len() - 1);
-        let (before, after) = (self.along[k - 1], self.along[k]);
-        let part = if after > before { (length - before) / (after - before) } else { 0.0 };
-        self.points[k - 1].lerp(self.points[k], part)
-    }
-}
-
-fn place(graph: &Graph, arcs: &[Arc], courses: &[Course], counts: &[usize]) -> Samples {
     let mut samples = Samples::default();
     let mut at_node: HashMap<u32, u32> = HashMap::new();
     let add = |samples: &mut Samples, point| {
@@ -146,23 +113,20 @@ fn place(graph: &Graph, arcs: &[Arc], courses: &[Course], counts: &[usize]) -> S
     for (a, arc) in arcs.iter().enumerate() {
         let n = counts[a];
         let mut ends = [arc.points[0], arc.points[arc.points.len() - 1]].map(|node| {
-            *at_node.entry(node).or_insert_with(|| add(&mut samples, graph.points[node as usize]))
+            let place = if arc.is_loose { halves[a][0] } else { graph.points[node as usize] };
+            *at_node.entry(node).or_insert_with(|| add(&mut samples, place))
         });
         for k in 1..=n {
-            let end = if k == n { ends[1] } else { add(&mut samples, courses[a].at(k as f64 / n as f64)) };
+            let end = if k == n { ends[1] } else { add(&mut samples, halves[a][2 * k]) };
             let (outline, middle) = (arc.outline, 0);
             samples.segments.push(SampledSegment { ends: [ends[0], end], middle, outline, arc: a as u32 });
             ends[0] = end;
         }
     }
     samples.coarse = samples.points.len();
-    let mut segment = 0;
-    for (course, &n) in courses.iter().zip(counts) {
-        for k in 0..n {
-            let middle = add(&mut samples, course.at((k as f64 + 0.5) / n as f64));
-            samples.segments[segment].middle = middle;
-            segment += 1;
-        }
+    let middles = halves.iter().flat_map(|halves| halves.iter().skip(1).step_by(2));
+    for (k, &middle) in middles.enumerate() {
+        samples.segments[k].middle = add(&mut samples, middle);
     }
     samples
 }
@@ -221,21 +185,23 @@ mod tests {
     use super::*;
     use crate::Silent;
 
-    /// Samples of two rings around one point that are so far from each other: 18 coarse segments each at first, if they are
-    /// near.
+    /// Samples of a ring and nearly all of another one around the same point, so far from each other: 18 coarse segments each at
+    /// first, if they are near. An open curve and a closed one are no strip.
     fn rings(apart: f64) -> Result<Samples, SampleError> {
         const POINTS: u32 = 4000;
         let mut graph = Graph::default();
-        for (radius, from) in [(3.0, 0.0), (3.0 + apart, 0.1)] {
+        for (radius, from, pieces) in [(3.0, 0.0, POINTS), (3.0 + apart, 0.1, POINTS - 1)] {
             let first = graph.points.len() as u32;
             for k in 0..POINTS {
                 let (y, x) = libm::sincos(from + std::f64::consts::TAU * f64::from(k) / f64::from(POINTS));
                 graph.add(DVec2::new(x, y) * radius, false);
                 let ends = [first + k, first + (k + 1) % POINTS];
-                graph.segments.push(Segment { ends, outline: true });
+                if k < pieces {
+                    graph.segments.push(Segment { ends, outline: true });
+                }
             }
         }
-        sample(&graph, &graph.arcs(), &Silent)
+        sample(&graph, &graph.arcs(), true, &Silent)
     }
 
     /// Without a limit the nearer ones would be told apart too, with more than a thousand segments each.

@@ -227,7 +227,7 @@ fn nodes_at_one_place_are_too_close() {
             let ends = (0..4).map(|k| [nodes[k], nodes[(k + 1) % 4]]);
             graph.segments.extend(ends.map(|ends| Segment { ends, outline: true }));
         }
-        mesher::mesh(&sample(&graph, &graph.arcs(), &Silent)?, 32.0, &Silent)
+        mesher::mesh(&sample(&graph, &graph.arcs(), true, &Silent)?, 32.0, &Silent)
     };
     assert_eq!(mesh(0.5).unwrap().cells.len(), 128);
     assert!(matches!(mesh(0.0), Err(FaceError::TooClose)));
@@ -256,13 +256,15 @@ fn of_curves_that_cannot_be_told_apart_the_shortest_is_given_up() {
     lay(&lower, false);
     lay(&upper, false);
     let arcs = graph.arcs();
-    let Err(SampleError::Crowded(crowded)) = sample(&graph, &arcs, &Silent) else { panic!("too close") };
+    let Err(SampleError::Crowded(crowded)) = sample(&graph, &arcs, true, &Silent) else {
+        panic!("too close")
+    };
     let crowded: Vec<_> = crowded.into_iter().map(|arc| arcs[arc].clone()).collect();
     assert_eq!(relax::part(&mut graph, &crowded), 2, "the shorter part, and what ends in it");
     let inner = |graph: &Graph| graph.segments.iter().filter(|s| !s.outline).map(|s| s.ends[0]).collect();
     let left: Vec<u32> = inner(&graph);
     assert_eq!(left, lower[..last]);
-    assert!(sample(&graph, &graph.arcs(), &Silent).is_ok());
+    assert!(sample(&graph, &graph.arcs(), true, &Silent).is_ok());
     let outline: Vec<_> = graph.arcs().into_iter().filter(|arc| arc.outline).collect();
     assert_eq!(relax::part(&mut graph, &outline), 0);
 }

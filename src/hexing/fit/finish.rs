@@ -48,6 +48,11 @@ impl Fitted {
         (self.report.worst, self.report.mean) = quality(mesh);
         Ok(())
     }
+
+    /// These nodes are not on the solid anymore.
+    pub fn take_off(&mut self, nodes: &[NodeId]) {
+        nodes.iter().for_each(|n| self.holds[n.index()] = Hold::Drawn);
+    }
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]

@@ -53,7 +53,7 @@ use crate::geometry::Point;
 use crate::mesh::quality::scaled_jacobian;
 use crate::mesh::{HexId, HexMesh, NodeId};
 use crate::monitor::Part;
-use crate::optimize::{Evening, OptimizeOptions, smooth};
+use crate::optimize::{Evening, OptimizeOptions, Problem, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
 use even::even;
@@ -101,6 +101,14 @@ pub(super) const GOOD: f64 = 0.45;
 
 /// How far nodes may be from where they belong for the sake of cells, in edges, if they are not farther already.
 const LEAVE: f64 = 0.15;
+
+/// The least scaled Jacobian in a mesh that is left as it is, since all its nodes are where they belong; and the share of its
+/// edges within which a node is there.
+const RIGHT: f64 = 0.7;
+const THERE: f64 = 1e-6;
+
+/// Nodes that are looked at between two questions whether to stop.
+const BATCH: usize = 1 << 12;
 
 /// Rings of cells around the boundary that are moved at first; others follow where these move far.
 const RINGS: usize = 3;
@@ -235,16 +243,21 @@ fn fitted(
     // Corners first, then curves, surfaces, and the inside.
     problem.order_by(4, |n| on.anchors[n.index()].freedom());
 
-    let boundary: Vec<u32> =
-        (0..problem.movable() as u32).filter(|&n| holds.is(problem.nodes[n as usize], Hold::Drawn)).collect();
-    let cells: Vec<usize> = problem.cells_around(&boundary).into_iter().map(|c| c as usize).collect();
-    let mut awake = problem.rings_around(&cells, RINGS);
-    let all = vec![true; problem.movable()];
-    let course = Course { stage: FITTING, sweeps: options.sweeps, floor: FLOOR };
-    sweeps += pull(&mut problem, &mut holds, &chains, &all, &mut awake, course, &part(PULL, SMOOTH))?;
-    holds.weight = 0.0;
-    sweeps += smooth(&mut problem, &holds, &options.smoothing, None, &part(SMOOTH, LOOSEN))?;
-    sweeps += loosen(&mut problem, &mut holds, on, &options.smoothing, &part(LOOSEN, 1.0))?;
+    if is_exact(&problem, &holds, monitor)? {
+        problem.nodes.iter().for_each(|&n| holds.replace(n, Hold::Drawn, Hold::Held));
+    } else {
+        let boundary: Vec<u32> = (0..problem.movable() as u32)
+            .filter(|&n| holds.is(problem.nodes[n as usize], Hold::Drawn))
+            .collect();
+        let cells: Vec<usize> = problem.cells_around(&boundary).into_iter().map(|c| c as usize).collect();
+        let mut awake = problem.rings_around(&cells, RINGS);
+        let all = vec![true; problem.movable()];
+        let course = Course { stage: FITTING, sweeps: options.sweeps, floor: FLOOR };
+        sweeps += pull(&mut problem, &mut holds, &chains, &all, &mut awake, course, &part(PULL, SMOOTH))?;
+        holds.weight = 0.0;
+        sweeps += smooth(&mut problem, &holds, &options.smoothing, None, &part(SMOOTH, LOOSEN))?;
+        sweeps += loosen(&mut problem, &mut holds, on, &options.smoothing, &part(LOOSEN, 1.0))?;
+    }
     monitor.checkpoint(FITTING, 1.0)?;
 
     problem.write_back(&mut mesh.positions);
@@ -263,6 +276,25 @@ fn fitted(
         apart: f64::INFINITY,
     };
     Ok((report, holds))
+}
+
+/// Are all nodes where they belong, and no cells bad? Then nothing is to be done: what draws nodes to the solid would first move
+/// them away, and those of walls far thinner than cells are long would hardly get back.
+fn is_exact(problem: &Problem, holds: &Holds, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
+    let is_there = |n: usize| {
+        let (id, place) = (problem.nodes[n], problem.points[n]);
+        let foot = holds.target.foot(holds.anchors[id.index()], place);
+        foot.is_none_or(|foot| foot.point.distance(place) <= THERE * problem.edge(n as u32))
+    };
+    for first in (0..problem.movable()).step_by(BATCH) {
+        if monitor.cancelled() {
+            return Err(Cancelled);
+        }
+        if !(first..problem.movable().min(first + BATCH)).all(is_there) {
+            return Ok(false);
+        }
+    }
+    Ok(problem.scaled_jacobians(monitor)?.into_iter().all(|jacobian| jacobian >= RIGHT))
 }
 
 /// Smooths all for the mean and brings mesh and solid nearer to each other; where they stay far from each other again, with

@@ -449,7 +449,7 @@ mod tests {
 
     #[test]
     fn a_fit_that_is_stopped_at_last_leaves_no_cell_inverted() {
-        let (solid, mut mesh) = house(0.0);
+        let (solid, mut mesh) = house(0.1);
         let mut on = correspond(&mesh, &solid, &Silent).unwrap();
         let mut sheets = insert_sheets(&mut mesh, &mut on, &solid, &Silent).unwrap();
         let mut fitted = |mesh: &mut HexMesh, monitor: &dyn Monitor| {

@@ -2,7 +2,7 @@
 //!
 //! A group needs one if
 //! 1. a hex has two faces in it that share an edge, and no sharp curve runs there;
-//! 2. an edge between it and another group has not exactly one hex;
+//! 2. an edge between it and another group has not exactly one hex, but for two in a thin wall;
 //! 3. a quad of another group beside it has two edges on the curve between them, and no corner there;
 //! 4. so has a quad of its own, at a curve within the group, whose hex has the quad across as well: collars need a hex
 //!    for each.
@@ -11,9 +11,13 @@ use super::super::correspondence::Correspondence;
 use super::boundary::{Boundary, BoundaryEdges, ascending};
 use super::groups::Groups;
 use crate::mesh::numbering::hex::EDGES;
+use crate::mesh::quality::aspect;
 use crate::mesh::{HexMesh, NodeId};
 use crate::parallel;
 use crate::solid::CurveId;
+
+/// Hexes longer than so many times their shortest edge are those of a thin wall.
+const THIN: f64 = 4.0;
 
 /// What of the boundary is looked at.
 pub(super) struct Look<'a> {
@@ -46,7 +50,7 @@ impl<'a> Look<'a> {
         self.bent_hexes().into_iter().for_each(&mut need);
         for edge in self.curve_edges() {
             let groups = edge.quads.map(|quad| self.group(quad));
-            if groups[0] != groups[1] && edge.hexes != 1 {
+            if groups[0] != groups[1] && edge.hexes != 1 && !self.is_mitred(&edge) {
                 groups.into_iter().for_each(&mut need);
             }
         }
@@ -59,6 +63,16 @@ impl<'a> Look<'a> {
             }
         }
         needs
+    }
+
+    /// Do two hexes share the angle at an edge fairly, so thin that a layer beside them could not be opened? So it is where a
+    /// thin wall turns.
+    fn is_mitred(&self, edge: &CurveEdge) -> bool {
+        let is_thin = |quad: u32| {
+            let hex = &self.mesh.hexes[self.boundary.hex(quad)];
+            aspect(&hex.map(|n| self.mesh.positions[n.index()])) > THIN
+        };
+        edge.hexes == 2 && !self.groups.is_thin(edge.curve) && edge.quads.into_iter().all(is_thin)
     }
 
     /// The group that a quad is of.
@@ -165,4 +179,51 @@ pub(super) struct FlatCorner {
 fn shared_edge(p: [NodeId; 4], q: [NodeId; 4]) -> Option<[NodeId; 2]> {
     let mut shared = p.into_iter().filter(|n| q.contains(n));
     Some([shared.next()?, shared.next()?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{told, voxels};
+    use super::*;
+    use crate::geometry::Point;
+    use crate::mesh::check_hexes;
+
+    /// Two hexes of an angle whose outer sides, surfaces 0 and 1, meet at the origin, along y; each is as long as 4 such widths at
+    /// 1.
+    fn angle(width: f64) -> HexMesh {
+        let mut mesh = voxels(&[[0, 0, 0], [1, 0, 0]]);
+        for p in &mut mesh.positions {
+            let outer = [[-4.0, 0.0], [0.0, 0.0], [0.0, -4.0]][p.x as usize];
+            let inwards = [[0.0, -1.0], [-1.0, -1.0], [-1.0, 0.0]][p.x as usize];
+            let [x, z] = [0, 1].map(|k| outer[k] + inwards[k] * width * p.z);
+            *p = Point::new(x, -p.y, z);
+        }
+        assert_eq!(check_hexes(&mesh), []);
+        mesh
+    }
+
+    /// Do the outer sides need a sheet? `is_sharp` leaves room for one hex alone at the edge between them.
+    fn needs(width: f64, is_sharp: bool) -> [bool; 2] {
+        let mesh = angle(width);
+        let on = told(&mesh, |middle, normal| match (normal.x > 0.9, normal.z > 0.9) {
+            (true, _) => 0,
+            (_, true) => 1,
+            _ if middle.y == 0.0 => 2,
+            _ => 3,
+        });
+        let is_outer = |n: &NodeId| mesh.positions[n.index()].with_y(0.0) == Point::ZERO;
+        let outer = on.edges.iter().find(|(ends, _)| ends.iter().all(is_outer)).expect("they meet");
+        let given = Groups::given(&[0, 1, 2, 3], &vec![false; on.edges.len()]);
+        let groups = if is_sharp { given.with_thin(&[outer.1]) } else { given };
+        let boundary = Boundary::of(&mesh, &on);
+        let needs = Look::new(&mesh, &on, &boundary, &groups).needs();
+        [needs[0], needs[1]]
+    }
+
+    #[test]
+    fn two_hexes_share_the_edge_of_a_thin_wall_that_turns() {
+        assert_eq!(needs(1.0, false), [true; 2], "there is room for a layer");
+        assert_eq!(needs(0.2, false), [false; 2]);
+        assert_eq!(needs(0.2, true), [true; 2], "there is room for one hex alone");
+    }
 }

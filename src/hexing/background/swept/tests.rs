@@ -4,33 +4,12 @@ use super::*;
 use crate::Silent;
 use crate::mesh::quality::hex_quality;
 use crate::mesh::{PolygonMesh, check_hexes};
-use crate::solid::testing::{cuboid, cylinder, holed, solid};
-
-/// Turns a profile of (radius, height), from axis to axis, around z in `n` steps.
-fn lathe(profile: &[[f64; 2]], n: u32) -> PolygonMesh {
-    let mut mesh = PolygonMesh::default();
-    for &[r, z] in profile {
-        mesh.positions.extend((0..n).map(|i| {
-            let (y, x) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(n));
-            Point::new(r * x, r * y, z)
-        }));
-    }
-    let last = profile.len() as u32 - 1;
-    mesh.push_face((0..n).rev().map(NodeId));
-    mesh.push_face((last * n..(last + 1) * n).map(NodeId));
-    for ring in 0..last {
-        for i in 0..n {
-            let j = (i + 1) % n;
-            mesh.push_face([i, j, n + j, n + i].map(|k| NodeId(ring * n + k)));
-        }
-    }
-    mesh
-}
+use crate::solid::testing::{cuboid, cylinder, holed, lathe, moved, solid, voxels};
 
 /// Sweeps along z and checks what is promised.
 fn checked(surface: &PolygonMesh, edge_length: f64) -> (SolidModel, HexMesh) {
     let solid = solid(surface);
-    let sweep = Sweep::new(&solid, Point::Z * 3.0, edge_length, 1 << 24, &Silent).unwrap();
+    let sweep = Sweep::new(&solid, Point::Z * 3.0, &SweepOptions::new(edge_length), &Silent).unwrap();
     let mesh = sweep.mesh(&solid, &Silent).unwrap();
     assert_eq!(check_hexes(&mesh), []);
     let worst = hex_quality(&mesh).report().unwrap().scaled_jacobian.summary.min;
@@ -98,15 +77,25 @@ fn layers_stand_at_the_steps_of_a_cylinder_and_rims_inside_are_followed() {
 #[test]
 fn levels_that_are_close_are_one() {
     let stepped = lathe(&[[1.0, 0.0], [1.0, 0.5], [0.9, 0.51], [0.6, 0.51], [0.6, 1.0]], 48);
-    assert_eq!(levels(&solid(&stepped), Point::Z, 0.2).len(), 3);
-    assert_eq!(levels(&solid(&stepped), Point::Z, 0.02).len(), 4);
+    assert_eq!(levels(&solid(&stepped), Point::Z, 0.2, 1.0).len(), 3);
+    assert_eq!(levels(&solid(&stepped), Point::Z, 0.02, 1.0).len(), 4);
+}
+
+/// A plate a tenth of an edge thick with a block on it.
+#[test]
+fn levels_of_thin_plates_are_told_apart_where_that_is_wanted() {
+    let plate = moved(voxels([3, 3, 2], |[x, y, z]| z == 0 || x == 1 && y == 1), |p| {
+        p.with_z([0.0, 0.1, 3.0][p.z as usize])
+    });
+    let heights = |tolerance| levels(&solid(&plate), Point::Z, 1.0, tolerance);
+    assert_eq!([heights(1.0), heights(0.25)], [vec![0.0, 3.0], vec![0.0, 0.1, 3.0]]);
 }
 
 #[test]
 fn what_cannot_be_swept_is_refused() {
     let solid = solid(&cuboid([1, 1, 1]));
     let code = |direction, edge_length| {
-        Sweep::new(&solid, direction, edge_length, 1 << 24, &Silent).unwrap_err().code()
+        Sweep::new(&solid, direction, &SweepOptions::new(edge_length), &Silent).unwrap_err().code()
     };
     assert_eq!(code(Point::ZERO, 0.1), "no-direction");
     assert_eq!(code(Point::Z, -1.0), "edge-length-out-of-range");

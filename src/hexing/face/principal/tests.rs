@@ -4,10 +4,10 @@ use super::*;
 use crate::Silent;
 use crate::geometry::Point;
 use crate::mesh::{NodeId, PolygonMesh};
-use crate::solid::testing::{cuboid, ell, holed, solid, voxels};
+use crate::solid::testing::{cuboid, ell, holed, moved, solid, voxels};
 
 fn face(surface: &PolygonMesh, direction: Point, edge_length: f64) -> PrincipalFace {
-    principal_face(&solid(surface), direction, &RegionOptions::new(edge_length), &Silent).unwrap()
+    principal_face(&solid(surface), direction, &RegionOptions::new(edge_length), 1.0, &Silent).unwrap()
 }
 
 fn area(face: &PrincipalFace) -> f64 {
@@ -102,4 +102,16 @@ fn the_last_bits_of_the_edge_length_bring_no_other_face() {
             assert_eq!(near.map(quads), [expected.clone(), expected.clone()], "{near:?}");
         }
     }
+}
+
+/// The sides of a wall that is a twentieth of an edge thick fall together within the usual tolerances.
+#[test]
+fn thin_walls_are_covered() {
+    let wall = moved(voxels([2, 2, 1], |[x, y, _]| x == 0 || y == 0), |p| {
+        let along = |x: f64| [0.0, 0.05, 7.0][x as usize];
+        Point::new(along(p.x), along(p.y), 4.0 * p.z)
+    });
+    let face = face(&wall, Point::Z, 1.0);
+    assert!((area(&face) - (2.0 * 7.0 * 0.05 - 0.05 * 0.05)).abs() < 1e-9, "{}", area(&face));
+    assert!(face.mesh.worst > 0.7, "{}", face.mesh.worst);
 }
