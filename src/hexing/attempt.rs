@@ -1,8 +1,8 @@
 //! One pass from a background to a draft, from there to a mesh, and what came of it.
 
 use super::background::{Background, Failure, Missed, OctreeMesh};
-use super::core::{Core, CoreOptions, CoreReport, core};
-use super::correspondence::{Correspondence, correspond};
+use super::core::{Core, CoreOptions, core, whole_core};
+use super::correspondence::{Correspondence, correspond, correspond_alike};
 use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, NEARER, Survey, fit, quality};
 use super::ground::{Plan, Site};
 use super::merit::{Bar, FAIR, loses_some};
@@ -110,11 +110,6 @@ impl Meshed {
     }
 }
 
-/// How far a core is from the solid's kind.
-pub(super) fn off_euler(core: &CoreReport) -> u64 {
-    core.euler.abs_diff(core.solid_euler)
-}
-
 /// Cuts a core out of a background and finds the solid's features on it. It is given up, with nothing but a report, as soon
 /// as it is known not to reach `bar`.
 pub(super) fn draft(
@@ -132,19 +127,27 @@ pub(super) fn draft(
         ..AttemptReport::default()
     };
     let core;
-    (core, report.keep_thin) = best_core(&background.mesh, site.solid, monitor)?;
+    (core, report.keep_thin) = if plan.kind == Background::Shell {
+        (whole_core(&background.mesh, site.solid, monitor)?, false)
+    } else {
+        best_core(&background.mesh, site.solid, monitor)?
+    };
     report.core = core.report;
     let cells = FineCells::of(&background);
     drop(background);
     if core.mesh.hexes.is_empty() {
         return Err(HexingError::NothingLeft { edge_length: site.options.edge_length });
     }
-    let off = off_euler(&core.report);
+    let off = core.report.off_kind();
     let is_behind = |features: Option<&FeatureReport>| bar.is_some_and(|bar| bar.is_above(off, features));
     if is_behind(None) {
         return Ok(Err(report));
     }
-    let on = correspond(&core.mesh, site.solid, monitor)?;
+    let on = if plan.kind == Background::Shell {
+        correspond_alike(&core.mesh, site.solid, monitor)?
+    } else {
+        correspond(&core.mesh, site.solid, monitor)?
+    };
     report.features = Some(FeatureReport::new(site.solid, &on.reduction));
     if is_behind(report.features.as_ref()) {
         return Ok(Err(report));
@@ -186,7 +189,7 @@ impl Draft {
         }
         let misses_features = || !misses(site, kind, &core, &on.reduction, Vec::new(), &cells).is_empty();
         // Where a distance is asked for smaller cells come first if more is missed; unless it is, where many are poor.
-        let may_approach = off_euler(&core.report) == 0
+        let may_approach = core.report.off_kind() == 0
             && if options.max_distance.is_some() { !misses_features() } else { fitted.report.mean >= FAIR };
         let apart = fitted.report.apart;
         let mut meshed = Meshed { mesh, on, fitted, approach: None };
@@ -208,7 +211,8 @@ impl Draft {
             }
         }
         let (distance, mut failures) = seen.map_or_else(|| look(&meshed), Ok)?;
-        let may_stay = kind == Background::Swept && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
+        let may_stay = matches!(kind, Background::Swept | Background::Shell)
+            && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
         // Smaller cells elsewhere bring them no nearer where none may be smaller.
         let is_finest = || cells.finest(&[distance.farthest()])[0] >= site.finest(kind);
         if options.max_distance.is_none() && (may_stay || is_finest()) {
@@ -236,11 +240,11 @@ fn best_core(
     let with =
         |keep_thin| core(background, solid, &CoreOptions { keep_thin, ..CoreOptions::default() }, monitor);
     let plain = with(false)?;
-    if plain.report.has_right_euler() && !plain.mesh.hexes.is_empty() {
+    if plain.report.is_of_kind() && !plain.mesh.hexes.is_empty() {
         return Ok((plain, false));
     }
     let thin = with(true)?;
-    let rank = |core: &Core| (core.mesh.hexes.is_empty(), off_euler(&core.report));
+    let rank = |core: &Core| (core.mesh.hexes.is_empty(), core.report.off_kind());
     Ok(if rank(&thin) < rank(&plain) { (thin, true) } else { (plain, false) })
 }
 

@@ -23,7 +23,7 @@
 //! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and
 //! how many times as large as the first another may be is bounded.
 
-use super::attempt::{Meshed, off_euler};
+use super::attempt::Meshed;
 use super::background::{Background, BackgroundError, Failure, Missed, retry};
 use super::ground::{Plan, Site};
 use super::merit::{captured, distance};
@@ -50,6 +50,9 @@ const FAR_GROWTH: f64 = 1.75;
 /// is not of the solid's kind.
 const OCTREE_GROWTH: f64 = 8.0;
 const KIND_GROWTH: f64 = 24.0;
+
+/// A shell is first taken for one where a grid captures less than this share of its area.
+const MOSTLY: f64 = 0.5;
 
 /// Mesh and solid are as good as together where they are no farther from each other than this, in edge lengths.
 const NEAR: f64 = 0.05;
@@ -82,12 +85,17 @@ pub(super) fn mesh_body(
     let mut search = Search::new(&site, monitor);
     let walls_first =
         site.is_thin_walled() && site.choice.kind == Background::Grid && site.has_walls(monitor)?;
-    let first = Plan { holds_walls: walls_first, ..site.plan(site.choice.kind) };
+    let is_askew = site.choice.kind == Background::Grid && site.choice.grid_capture < MOSTLY;
+    let shell_first = is_askew && !walls_first && site.may_be_shell(monitor)?;
+    let kind = if shell_first { Background::Shell } else { site.choice.kind };
+    let first = Plan { holds_walls: walls_first, ..site.plan(kind) };
     match search.attempt(first, options.max_hexes) {
         // Others may keep what is thinner than its cells.
         Err(HexingError::NothingLeft { .. }) => {}
         // What may be swept, but not be refined as the options want it.
-        Err(HexingError::Background(BackgroundError::Refine(_))) if site.may_be_grid() => {
+        Err(HexingError::Background(BackgroundError::Refine(_)))
+            if site.may_be_grid() && kind != Background::Grid =>
+        {
             search.attempt(site.plan(Background::Grid), options.max_hexes)?;
         }
         made => made?,
@@ -99,6 +107,9 @@ pub(super) fn mesh_body(
         search.sweep_walls()?;
     }
     search.refine(options.max_hexes)?;
+    if search.is_other() || !search.is_good() {
+        search.shell()?;
+    }
     let is_astray = search.is_astray();
     if site.may_be_grid() && (is_astray || !search.is_good()) && !search.has_tried(Background::Grid) {
         search.another(site.plan(Background::Grid), search.limit())?;
@@ -155,6 +166,15 @@ impl Search<'_> {
             }
         }
         if self.waits() && !self.octree_is_first() { self.fit_best() } else { Ok(()) }
+    }
+
+    /// Tries a layer between the sides of a shell, if the solid is one, and refines it.
+    fn shell(&mut self) -> Result<(), HexingError> {
+        if self.has_tried(Background::Shell) || !self.site.may_be_shell(self.monitor)? {
+            return Ok(());
+        }
+        self.another(self.site.plan(Background::Shell), self.site.options.max_hexes)?;
+        if self.is_on(Background::Shell) { self.refine(self.site.options.max_hexes) } else { Ok(()) }
     }
 
     /// Where a grid missed something that somebody drew, or is off the solid, tries one with lines in both sides of walls and
@@ -237,7 +257,7 @@ impl Search<'_> {
 
     /// How many an octree may have, and what is refined of it.
     fn limit_of_octree(&self) -> u64 {
-        let is_wrong = self.best_report().is_none_or(|best| off_euler(&best.core) > 0);
+        let is_wrong = self.best_report().is_none_or(|best| best.core.off_kind() > 0 || best.lacks_part);
         let (growth, few) = if is_wrong { (KIND_GROWTH, FEW_FOR_KIND) } else { (OCTREE_GROWTH, FEW) };
         let first = self.attempts.first().map_or(0, |first| first.core.background);
         ((growth * first as f64) as u64).max(few).min(self.site.options.max_hexes)
@@ -257,7 +277,7 @@ impl Search<'_> {
         let failures: Vec<Failure> = failures.iter().filter(|f| looked_at(f)).cloned().collect();
         let more = retry(&failures, self.site.edge_length(plan.kind), self.site.finest(plan.kind));
         let has_place = !more.is_empty();
-        let is_wrong = off_euler(&self.attempts[*number].core) > 0;
+        let is_wrong = self.attempts[*number].core.off_kind() > 0;
         let details = if is_wrong && !has_place { round.max(plan.details) } else { plan.details };
         if !has_place && details == plan.details {
             return None;

@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use glam::DMat3;
 
 use super::background::{
-    AlignedGrid, Background, BackgroundError, Choice, LEAST_GAP, Octree, OctreeMesh, Sweep, SweepError,
-    SweepOptions, SweptScore, Wanted, choose, has_walls, may_sweep, octree, refined,
+    AlignedGrid, Background, BackgroundError, Choice, LEAST_GAP, Octree, OctreeMesh, Shell, Sweep,
+    SweepError, SweepOptions, SweptScore, Wanted, choose, has_walls, may_sweep, octree, refined, thickness,
 };
 use super::direction::{DirectionScore, best_frame, principal_directions};
 use super::merit::Taste;
@@ -17,6 +17,9 @@ use crate::{Cancelled, Monitor};
 
 /// The share of the usual tolerances for a sweep that shows walls and steps however thin.
 const FINE: f64 = 1.0 / 16.0;
+
+/// What is thicker than so many edges is no shell.
+const LAYERS: f64 = 3.0;
 
 /// A body and the kind of background that suits it.
 pub(super) struct Site<'a> {
@@ -32,6 +35,7 @@ pub(super) struct Site<'a> {
     unlikely_sweep: OnceLock<Option<Sweep>>,
     /// One that shows walls and steps however thin.
     fine_sweep: OnceLock<Option<Sweep>>,
+    shell: OnceLock<Option<Shell>>,
 }
 
 /// How an attempt's background differs from others of its site.
@@ -65,6 +69,11 @@ impl<'a> Site<'a> {
             directions = principal_directions(solid, monitor)?;
             sweep = swept(solid, axes, &directions, options, monitor)?;
         }
+        let shell = OnceLock::new();
+        if options.background == Background::Shell {
+            let found = Shell::of(solid, monitor)?.ok_or(BackgroundError::NoShell)?;
+            shell.get_or_init(|| Some(found));
+        }
         let score = sweep.as_ref().map(|sweep| SweptScore {
             surface_capture: directions[0].surface_capture,
             worst_quad: sweep.worst_quad(),
@@ -80,12 +89,13 @@ impl<'a> Site<'a> {
             sweep,
             unlikely_sweep: OnceLock::new(),
             fine_sweep: OnceLock::new(),
+            shell,
         })
     }
 
-    /// Was it a choice not to take a grid?
+    /// Is it a choice whether to take a grid?
     pub(super) fn may_be_grid(&self) -> bool {
-        self.options.background == Background::Auto && self.choice.kind == Background::Swept
+        self.options.background == Background::Auto && self.choice.kind != Background::Octree
     }
 
     /// Was it a choice not to take an octree?
@@ -121,10 +131,26 @@ impl<'a> Site<'a> {
         Ok(self.sweep(true).is_some())
     }
 
+    /// May it be a layer between the sides of a shell? As that is found out, so it may.
+    pub(super) fn may_be_shell(&self, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
+        let is_thin = || thickness(self.solid) < LAYERS * self.options.edge_length;
+        if self.options.background == Background::Auto && !is_thin() {
+            return Ok(false);
+        }
+        if self.shell.get().is_none() {
+            let shell = Shell::of(self.solid, monitor)?;
+            self.shell.get_or_init(|| shell);
+        }
+        Ok(self.shell().is_some())
+    }
+
+    fn shell(&self) -> Option<&Shell> {
+        self.shell.get()?.as_ref()
+    }
+
     /// Is the body on the whole thinner than the cells of a grid may be?
     pub(super) fn is_thin_walled(&self) -> bool {
-        let area: f64 = self.solid.surfaces().iter().map(|surface| surface.area).sum();
-        2.0 * self.solid.volume() < LEAST_GAP * self.options.edge_length * area
+        thickness(self.solid) < LEAST_GAP * self.options.edge_length
     }
 
     /// Has the body walls or slots thinner than the cells of a grid, along its axes?
@@ -180,8 +206,13 @@ impl<'a> Site<'a> {
             regions: &regions,
             in_blocks: plan.in_blocks,
         };
-        match (plan.kind, self.sweep(plan.holds_walls)) {
-            (Background::Swept, Some(sweep)) => {
+        match (plan.kind, self.sweep(plan.holds_walls), self.shell()) {
+            (Background::Shell, _, Some(shell)) => {
+                let mesh = shell.mesh(solid, &aligned, monitor)?;
+                refined(mesh, solid, edge_length, &wanted, max_hexes, monitor)
+            }
+            (Background::Shell, ..) => Err(BackgroundError::NoShell),
+            (Background::Swept, Some(sweep), _) => {
                 let mesh = sweep.mesh(solid, monitor)?;
                 let hexes = mesh.hexes.len();
                 if hexes as u64 > max_hexes {

@@ -1,6 +1,6 @@
 //! Which of two attempts a user would rather have.
 //!
-//! First the one that is nearer to the solid's Euler number, then one within the distance allowed. Between two like that
+//! First the one that is nearer to the solid's kind, then one within the distance allowed. Between two like that
 //! small things and great ones are weighed against each other: a curve lost that is shorter than a cell is no reason to
 //! take a mesh that is far off elsewhere. What an attempt costs is the sum of
 //!
@@ -13,7 +13,6 @@
 
 use std::cmp::Ordering;
 
-use super::attempt::off_euler;
 use super::options::HexingOptions;
 use super::report::{AttemptReport, FeatureReport};
 use crate::solid::SolidModel;
@@ -74,7 +73,7 @@ const CLEARLY: f64 = 0.02;
 /// What an attempt has to reach to be worth going on with.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bar {
-    off_euler: u64,
+    off_kind: u64,
     /// The share of the features that it may lose.
     lost: f64,
 }
@@ -86,7 +85,7 @@ impl Bar {
         let apart = best.mesh.as_ref().map_or(0.0, |mesh| mesh.distance.hausdorff() / options.edge_length);
         let gain = APART * (apart - taste.astray).max(0.0);
         Self {
-            off_euler: off_euler(&best.core),
+            off_kind: best.core.off_kind(),
             lost: lost(best.features.as_ref()) + taste.loss + gain / taste.lost,
         }
     }
@@ -94,20 +93,20 @@ impl Bar {
     /// That of smaller cells where the best attempt lost something and has nothing else to mend.
     pub(super) fn of_refined(best: &AttemptReport) -> Self {
         let was = lost(best.features.as_ref());
-        Self { off_euler: off_euler(&best.core), lost: (was - CLEARLY).max(0.5 * was) }
+        Self { off_kind: best.core.off_kind(), lost: (was - CLEARLY).max(0.5 * was) }
     }
 
     /// That of a draft that [loses much](loses_much). What may show a part that the draft lacks may lose anything.
     pub(super) fn of_draft(draft: &AttemptReport, taste: Taste) -> Self {
         let was = lost(draft.features.as_ref());
         let lost = if draft.lacks_part { f64::INFINITY } else { was - LESS / taste.lost };
-        Self { off_euler: off_euler(&draft.core), lost }
+        Self { off_kind: draft.core.off_kind(), lost }
     }
 
     /// Is a core that is so far from the solid's Euler number, with these features if they are known, not worth it?
-    pub(super) fn is_above(&self, off_euler: u64, features: Option<&FeatureReport>) -> bool {
+    pub(super) fn is_above(&self, off_kind: u64, features: Option<&FeatureReport>) -> bool {
         let loses_more = features.is_some() && lost(features) > self.lost;
-        off_euler > self.off_euler || off_euler == self.off_euler && loses_more
+        off_kind > self.off_kind || off_kind == self.off_kind && loses_more
     }
 }
 
@@ -142,7 +141,7 @@ pub(super) fn loses_much(draft: &AttemptReport, taste: Taste) -> bool {
 
 /// Does the draft `a` show more of the solid than `b`, be that a mesh or not?
 pub(super) fn shows_more(a: &AttemptReport, b: &AttemptReport) -> bool {
-    let lacks = |report: &AttemptReport| (off_euler(&report.core), report.lacks_part);
+    let lacks = |report: &AttemptReport| (report.core.off_kind(), report.lacks_part);
     let order = lacks(a).cmp(&lacks(b));
     order.then(lost(a.features.as_ref()).total_cmp(&lost(b.features.as_ref()))) == Ordering::Less
 }
@@ -164,7 +163,7 @@ pub(super) fn distance(report: &AttemptReport) -> f64 {
 
 /// Is `a` better than `b`? One without a mesh is better than none.
 pub(super) fn is_better(a: &AttemptReport, b: &AttemptReport, options: &HexingOptions, taste: Taste) -> bool {
-    let first = |report: &AttemptReport| (off_euler(&report.core), is_far(report, options));
+    let first = |report: &AttemptReport| (report.core.off_kind(), is_far(report, options));
     let cost = |report: &AttemptReport| cost(report, options, taste);
     let order = first(a).cmp(&first(b)).then(cost(a).total_cmp(&cost(b)));
     order == Ordering::Less

@@ -14,7 +14,11 @@ const NEAR: f64 = 0.003;
 /// a feature is not shown that these may show.
 pub(super) fn tolerance(site: &Site<'_>, kind: Background) -> f64 {
     let of_edge = site.taste.near * site.options.edge_length;
-    let of_solid = if kind == Background::Swept { 0.0 } else { NEAR * site.solid.diagonal() };
+    let of_solid = if matches!(kind, Background::Swept | Background::Shell) {
+        0.0
+    } else {
+        NEAR * site.solid.diagonal()
+    };
     site.options.max_distance.unwrap_or(of_edge.max(of_solid))
 }
 
@@ -93,7 +97,7 @@ pub(super) fn misses(
     for lost in reduction.lost_surfaces.iter().filter(may_show) {
         failures.push(Failure::of_surface(solid, lost.surface, 0, finest));
     }
-    if !core.report.has_right_euler() {
+    if !core.report.is_of_kind() {
         failures.extend(core.lost.iter().map(|part| Failure::of_lost(part.centers.clone(), 0)));
     }
     failures.extend(far.into_iter().map(|place| Failure::of_far(place, 0)));

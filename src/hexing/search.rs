@@ -4,7 +4,7 @@
 //! another kind is fitted only if none of the solid's kind is found; one that lacks a part of the solid, only if the others do;
 //! one that loses much, only if smaller cells lose hardly less, or have something to mend.
 
-use super::attempt::{Draft, Meshed, draft, off_euler};
+use super::attempt::{Draft, Meshed, draft};
 use super::background::{Background, Failure, Missed};
 use super::ground::{Plan, Site};
 use super::merit::{Bar, captured, distance, is_better, is_far, loses_much, shows_more, worst};
@@ -81,7 +81,7 @@ impl<'a> Search<'a> {
         }
         self.cores.push(core);
         let failures = draft.failures(self.site);
-        let is_of_kind = off_euler(&draft.report.core) == 0;
+        let is_of_kind = draft.report.core.off_kind() == 0;
         let has_rival = self.best.is_some() && !self.waits();
         let may_wait = !has_rival && !failures.is_empty();
         let waits = may_wait && (draft.report.lacks_part || loses_much(&draft.report, self.site.taste));
@@ -119,7 +119,7 @@ impl<'a> Search<'a> {
     pub(super) fn waits(&self) -> bool {
         self.best
             .as_ref()
-            .is_some_and(|best| best.meshed.is_none() && off_euler(&self.attempts[best.number].core) == 0)
+            .is_some_and(|best| best.meshed.is_none() && self.attempts[best.number].core.off_kind() == 0)
     }
 
     /// Fits a draft; keeps the mesh if it is better than the best so far.
@@ -148,7 +148,7 @@ impl<'a> Search<'a> {
         while !self.is_good()
             && let Some(waiting) = self.waiting.pop()
         {
-            let lacks = |report: &AttemptReport| (off_euler(&report.core), report.lacks_part);
+            let lacks = |report: &AttemptReport| (report.core.off_kind(), report.lacks_part);
             if self.best_report().is_none_or(|best| lacks(&self.attempts[waiting.number]) <= lacks(best)) {
                 self.fit_waiting(waiting)?;
             }
@@ -244,7 +244,7 @@ impl<'a> Search<'a> {
     pub(super) fn is_astray(&self) -> bool {
         self.best_report().is_none_or(|best| {
             let apart = distance(best) / self.site.options.edge_length;
-            off_euler(&best.core) > 0 || apart > self.site.taste.astray
+            best.core.off_kind() > 0 || apart > self.site.taste.astray
         })
     }
 
@@ -252,7 +252,7 @@ impl<'a> Search<'a> {
     pub(super) fn is_good(&self) -> bool {
         self.best_report().is_some_and(|best| {
             let is_near = !is_far(best, self.site.options);
-            off_euler(&best.core) == 0 && is_near && worst(best) >= self.site.taste.good
+            best.core.off_kind() == 0 && is_near && worst(best) >= self.site.taste.good
         })
     }
 }

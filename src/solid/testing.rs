@@ -76,6 +76,26 @@ pub(crate) fn cylinder(n: u32) -> PolygonMesh {
     mesh
 }
 
+/// A shell of so many quads along x and y, each 1 wide, in the middle of which z is a `height` of x and y; both are 0 in its middle.
+pub(crate) fn bent(count: i32, thickness: f64, height: impl Fn(f64, f64) -> f64) -> PolygonMesh {
+    moved(voxels([count, count, 1], |_| true), |p| {
+        let [x, y] = [p.x, p.y].map(|c| c - 0.5 * f64::from(count));
+        let slope = |dx: f64, dy: f64| (height(x + dx, y + dy) - height(x - dx, y - dy)) / 2e-6;
+        let normal = Point::new(-slope(1e-6, 0.0), -slope(0.0, 1e-6), 1.0).normalize();
+        Point::new(x, y, height(x, y)) + normal * (thickness * (p.z - 0.5))
+    })
+}
+
+/// What is between two spheres around the origin, of quads as those of a cube's sides.
+pub(crate) fn hollow_ball(count: i32, radius: f64, thickness: f64) -> PolygonMesh {
+    let hollow = voxels([count; 3], |at| at.iter().any(|&c| c == 0 || c == count - 1));
+    moved(hollow, |p| {
+        let p = p - Point::splat(0.5 * f64::from(count));
+        let inwards = 0.5 * f64::from(count) - p.abs().max_element();
+        p.normalize() * (radius - thickness * inwards)
+    })
+}
+
 /// Turns a profile of (radius, height), from axis to axis, around z in `n` steps.
 pub(crate) fn lathe(profile: &[[f64; 2]], n: u32) -> PolygonMesh {
     let mut mesh = PolygonMesh::default();

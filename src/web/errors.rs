@@ -150,7 +150,10 @@ impl From<HexingError> for Failure {
             | HexingError::NothingLeft { .. }
             | HexingError::Solid(SolidError::Option { .. })
             | HexingError::Background(
-                BackgroundError::EdgeLength(_) | BackgroundError::NoDirection | BackgroundError::Face(_),
+                BackgroundError::EdgeLength(_)
+                | BackgroundError::NoDirection
+                | BackgroundError::NoShell
+                | BackgroundError::Face(_),
             ) => Kind::Options,
             HexingError::Solid(_) | HexingError::Tangled(_) => Kind::Input,
             HexingError::Background(

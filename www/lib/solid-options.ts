@@ -13,10 +13,11 @@ export const MOST_HEXES_OF_SOLIDS = 2_000_000;
  *
  * - `swept`: quads that follow the solid's outline, in layers: for parts that are extruded.
  * - `grid`: a grid along the solid's own axes with lines in its planar faces.
- * - `octree`: such a grid, refined where the solid has details.
+ * - `shell`: a layer between the two sides of a thin shell, however curved.
+ * - `octree`: a grid, refined where the solid has details.
  * - `auto`: what suits the solid, another one if that does not show it.
  */
-export type Background = 'auto' | 'swept' | 'grid' | 'octree';
+export type Background = 'auto' | 'swept' | 'grid' | 'shell' | 'octree';
 
 /** A kind of hex of the second order: with a node on each edge, or on each edge, on each face and inside. */
 export type SecondOrderHex = 'hex20' | 'hex27';

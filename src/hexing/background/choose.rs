@@ -18,7 +18,9 @@ pub enum Background {
     Swept,
     /// A grid whose lines stand in planar surfaces.
     Grid,
-    /// Such a grid of twice the edge length, refined at the boundary, and more where walls are thin, gaps narrow and
+    /// A layer of hexes between the two sides of a thin shell.
+    Shell,
+    /// A grid of twice the edge length, refined at the boundary, and more where walls are thin, gaps narrow and
     /// curves short.
     Octree,
 }

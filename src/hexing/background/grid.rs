@@ -81,6 +81,11 @@ pub enum BackgroundError {
     /// No direction suggests itself for a sweep.
     #[error("the solid has neither a plane nor an axis to sweep along; choose another background")]
     NoDirection,
+    /// The solid is no shell.
+    #[error(
+        "the solid is no thin shell: it has not two sides that face each other nearly everywhere; choose another background"
+    )]
+    NoShell,
     /// There is no principal face to sweep.
     #[error("the solid cannot be swept: {0}; choose another background")]
     Face(FaceError),
@@ -98,6 +103,7 @@ impl BackgroundError {
             Self::TooFewDigits { .. } => "too-few-digits",
             Self::Refine(error) => error.code(),
             Self::NoDirection => "no-direction",
+            Self::NoShell => "no-shell",
             Self::Face(error) => error.code(),
             Self::Cancelled(_) => "cancelled",
         }
@@ -176,6 +182,16 @@ pub(super) fn grid_to_refine(
     monitor: &dyn Monitor,
 ) -> Result<HexMesh, BackgroundError> {
     let reach = REACH / f64::from(1u32 << boundary_level.min(31));
+    Ok(laid(solid, options, (reach, false), monitor)?.0)
+}
+
+/// As [`grid`], with all cells that come so near to the solid, as a share of a cell.
+pub(super) fn grid_around(
+    solid: &SolidModel,
+    options: &AlignedGrid,
+    reach: f64,
+    monitor: &dyn Monitor,
+) -> Result<HexMesh, BackgroundError> {
     Ok(laid(solid, options, (reach, false), monitor)?.0)
 }
 

@@ -8,7 +8,7 @@ use crate::geometry::Point;
 use crate::hexing::attempt::draft;
 use crate::hexing::search::Waiting;
 use crate::mesh::PolygonMesh;
-use crate::solid::testing::{lathe, moved, polygons, solid, voxels};
+use crate::solid::testing::{bent, hollow_ball, lathe, moved, polygons, solid, voxels};
 
 /// A sweep captures its walls, which no grid does, and shows all of the solid but a dimple in the top, be it shallow or so
 /// narrow and deep that no cells of a sweep show it.
@@ -120,6 +120,38 @@ fn thin_walls_are_swept_where_all_else_misses_them() {
     }
 }
 
+/// However thin it is, and whichever way it is bent, a shell is a layer of good hexes at once.
+#[test]
+fn shells_are_layers_from_side_to_side() {
+    for thickness in [0.1, 0.4] {
+        let saddle = bent(20, thickness, |x, y| 0.02 * (x * x - y * y));
+        for surface in [saddle, hollow_ball(16, 6.0, thickness)] {
+            let solid = solid(&surface);
+            let options = HexingOptions { edge_length: 1.0, ..HexingOptions::default() };
+            let Body { report, .. } = mesh_body(&solid, &options, &Silent).unwrap();
+            let [attempt] = report.attempts.as_slice() else { panic!("{:?}", report.attempts.len()) };
+            let mesh = attempt.mesh.as_ref().unwrap();
+            assert!(
+                attempt.background == Background::Shell && attempt.features.as_ref().unwrap().lost() == 0
+            );
+            assert!(mesh.worst > 0.6 && mesh.mean > 0.85, "{} {}", mesh.worst, mesh.mean);
+            assert!(distance(attempt) < 0.1, "{}", distance(attempt));
+        }
+    }
+}
+
+/// A bent plate is one where that is asked for, also where it is thick; a cube is none.
+#[test]
+fn shells_are_made_where_they_are_asked_for() {
+    let options =
+        HexingOptions { edge_length: 1.0, background: Background::Shell, ..HexingOptions::default() };
+    let plate = bent(16, 4.0, |x, _| 0.01 * x * x);
+    assert_eq!(kept_with(&plate, &options).0, Background::Shell);
+    let cube = solid(&voxels([4, 4, 4], |_| true));
+    let refused = mesh_body(&cube, &options, &Silent).err();
+    assert_eq!(refused, Some(HexingError::Background(BackgroundError::NoShell)));
+}
+
 /// Nothing but layers that end in its edge shows a wedge of five degrees, though the quads there are poor.
 #[test]
 fn a_wedge_is_swept_where_all_else_misses_it() {
@@ -131,24 +163,26 @@ fn a_wedge_is_swept_where_all_else_misses_it() {
     assert!(background == Background::Swept && apart < 0.05 && shows_all, "{background:?} {apart}");
 }
 
-/// Euler numbers of a first attempt on a background of so many hexes, and how many an octree may have then.
-fn limit_of_octree(euler: i64, background: usize, max_hexes: u64) -> u64 {
+/// How many hexes an octree may have after a first attempt with this Euler number and so many cells.
+fn limit_of_octree((euler, lacks_part): (i64, bool), background: usize, max_hexes: u64) -> u64 {
     let solid = solid(&voxels([4, 4, 4], |_| true));
     let options = HexingOptions { edge_length: 1.0, max_hexes, ..HexingOptions::default() };
     let site = Site::new(&solid, &options, &Silent).unwrap();
     let mut search = Search::new(&site, &Silent);
     search.attempt(site.plan(Background::Grid), max_hexes).unwrap();
-    (search.attempts[0].core.euler, search.attempts[0].core.background) = (euler, background);
+    let attempt = &mut search.attempts[0];
+    (attempt.core.euler, attempt.core.background, attempt.lacks_part) = (euler, background, lacks_part);
     search.limit_of_octree()
 }
 
-/// Where a coarse grid has another Euler number an octree may have as many hexes as small holes take.
+/// Where a coarse grid has another Euler number, or lacks a part, an octree may have as many hexes as small holes take.
 #[test]
 fn an_octree_may_be_larger_where_the_kind_is_wrong() {
     let many = 1_000_000;
-    assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 2446, many)), [20_000, 150_000]);
-    assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 10_000, many)), [80_000, 240_000]);
-    assert_eq!([2, 0].map(|euler| limit_of_octree(euler, 10_000, 50_000)), [50_000, 50_000]);
+    let kinds = [(2, false), (0, false), (2, true)];
+    assert_eq!(kinds.map(|kind| limit_of_octree(kind, 2446, many)), [20_000, 150_000, 150_000]);
+    assert_eq!(kinds.map(|kind| limit_of_octree(kind, 10_000, many)), [80_000, 240_000, 240_000]);
+    assert_eq!(kinds.map(|kind| limit_of_octree(kind, 10_000, 50_000)), [50_000; 3]);
 }
 
 /// A plate with nine pegs, of which large cells show none: drafts wait as long as there are smaller cells to try.

@@ -7,7 +7,7 @@ use crate::mesh::{HexMesh, NodeId};
 use crate::{Cancelled, Monitor, parallel};
 
 /// The cells of a background mesh.
-pub(super) struct Cells<'a> {
+pub(in super::super) struct Cells<'a> {
     pub mesh: &'a HexMesh,
     /// For each cell the cells across its faces, or [`NONE`] on the boundary of the mesh.
     pub neighbours: Vec<[u32; 6]>,
@@ -16,7 +16,7 @@ pub(super) struct Cells<'a> {
 }
 
 /// No cell.
-pub(super) const NONE: u32 = u32::MAX;
+pub(in super::super) const NONE: u32 = u32::MAX;
 
 /// Each value once, ascending.
 pub(super) fn distinct<T: Ord>(mut all: Vec<T>) -> Vec<T> {

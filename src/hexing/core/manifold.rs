@@ -27,7 +27,7 @@ const SHALLOW: f64 = 0.25;
 
 /// What was done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Repairs {
+pub(in super::super) struct Repairs {
     /// Cells that changed sides, each time counted.
     pub flips: usize,
     /// Rounds over all nodes that might be pinched.
@@ -36,7 +36,7 @@ pub(super) struct Repairs {
 
 /// Changes as few and as shallow cells as may be, until `inside` is bounded by a manifold and no shallow cell stands
 /// out, or is missing, alone. `depth` is how deep each cell lies outside, in edge lengths; negative inside.
-pub(super) fn make_manifold(
+pub(in super::super) fn make_manifold(
     cells: &Cells<'_>,
     depth: &[f64],
     inside: &mut [bool],

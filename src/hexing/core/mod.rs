@@ -26,9 +26,11 @@ use crate::mesh::numbering::hex::FACES;
 use crate::mesh::{HexId, HexMesh, NodeId, Volumes};
 use crate::solid::{SolidModel, SurfaceClass};
 use crate::{Cancelled, Monitor, Stage, parallel};
-use cells::{Cells, NONE};
+use cells::NONE;
+pub(super) use cells::{Cells, NONE as NO_CELL};
 use distance::Distances;
 pub use energy::Energy;
+pub(super) use manifold::make_manifold;
 use thin::{Near, keep_thin};
 
 /// How the core is cut out.
@@ -102,9 +104,16 @@ pub struct CoreReport {
 }
 
 impl CoreReport {
-    /// Is the core's boundary of the solid's kind, as far as the Euler number tells?
-    pub fn has_right_euler(&self) -> bool {
-        self.euler == self.solid_euler
+    /// Is the core of the solid's kind, as far as the Euler number tells, and the volume?
+    pub fn is_of_kind(&self) -> bool {
+        self.off_kind() == 0
+    }
+
+    /// How far the core is from the solid's kind: by the Euler number, and by more than any where it has not even half of the
+    /// solid's volume. What is left then may be of the kind by chance: a crumb is a ball, as a plate is.
+    pub fn off_kind(&self) -> u64 {
+        let lacks_most = u64::from(self.volume_ratio < MOST) << 32;
+        lacks_most + self.euler.abs_diff(self.solid_euler)
     }
 }
 
@@ -113,6 +122,9 @@ const FAR: f64 = 2.0;
 
 /// Edges: cells whose centres are nearer to a curve of the solid are not levelled.
 const AROUND_CURVES: f64 = 1.5;
+
+/// A core with less than this share of the solid's volume is not of its kind.
+const MOST: f64 = 0.5;
 
 const CORE: Stage = Stage("core");
 
@@ -180,13 +192,46 @@ pub fn core(
         bubbles: removed.bubbles.iter().map(Vec::len).sum(),
         euler: boundary_euler(&cells, &inside),
         solid_euler: solid.euler_number(),
-        volume_ratio: Volumes::of(&mesh).map_or(0.0, |volumes| volumes.total) / solid.volume(),
+        volume_ratio: volume_ratio(&mesh, solid),
     };
     let centers = |part: &Vec<u32>| part.iter().map(|&cell| cells.barycentre(cell as usize)).collect();
     let parts = removed.crumbs.iter().chain(&removed.bubbles);
     let lost = parts.map(|part| LostPart { centers: centers(part) }).collect();
     monitor.checkpoint(CORE, 1.0)?;
     Ok(Core { mesh, cells: kept.into_iter().map(HexId).collect(), report, lost })
+}
+
+/// The core that is all of a background: one that was made for nothing but the solid, and is a manifold.
+///
+/// # Errors
+/// If the monitor stops it.
+pub fn whole_core(
+    background: &HexMesh,
+    solid: &SolidModel,
+    monitor: &dyn Monitor,
+) -> Result<Core, Cancelled> {
+    monitor.checkpoint(CORE, 0.0)?;
+    let cells = Cells::of(background, monitor)?;
+    let count = cells.len();
+    let report = CoreReport {
+        background: count,
+        cells: count,
+        euler: boundary_euler(&cells, &vec![true; count]),
+        solid_euler: solid.euler_number(),
+        volume_ratio: volume_ratio(background, solid),
+        ..CoreReport::default()
+    };
+    monitor.checkpoint(CORE, 1.0)?;
+    Ok(Core {
+        mesh: background.clone(),
+        cells: (0..count).map(HexId::new).collect(),
+        report,
+        lost: Vec::new(),
+    })
+}
+
+fn volume_ratio(mesh: &HexMesh, solid: &SolidModel) -> f64 {
+    Volumes::of(mesh).map_or(0.0, |volumes| volumes.total) / solid.volume()
 }
 
 /// The solid's unit normal near a cell that may be levelled: one in the domain, at a surface that is neither a plane nor a

@@ -133,7 +133,7 @@ fn in_refined_domains_the_papers_energy_is_cut() {
         CoreOptions { energy: Energy::Paper, domain: Some(&domain), keep_thin: false, level: false };
     let cut = core(&background, &solid, &options, &Silent).unwrap();
     assert_eq!(check_hexes(&cut.mesh), []);
-    assert!(cut.report.has_right_euler() && cut.report.undecided == domain.iter().filter(|&&is| is).count());
+    assert!(cut.report.is_of_kind() && cut.report.undecided == domain.iter().filter(|&&is| is).count());
     // Cells whose faces would be bad are left out.
     assert!((0.7..1.0).contains(&cut.report.volume_ratio), "{:?}", cut.report);
 
@@ -143,7 +143,7 @@ fn in_refined_domains_the_papers_energy_is_cut() {
         let options = CoreOptions { level, domain: Some(&domain), ..CoreOptions::default() };
         core(&background, &solid, &options, &Silent).unwrap()
     });
-    assert!(flat.report.terraces > 0 && flat.report.has_right_euler(), "{:?}", flat.report);
+    assert!(flat.report.terraces > 0 && flat.report.is_of_kind(), "{:?}", flat.report);
     let beyond = |core: &Core| core.cells.iter().copied().filter(|c| !domain[c.index()]).collect::<Vec<_>>();
     assert!(flat.cells != stepped.cells && beyond(&flat) == beyond(&stepped));
 }
@@ -159,6 +159,7 @@ fn what_is_thinner_than_cells_is_kept() {
     let slot = voxels([9, 9, 6], |[x, _, z]| x != 4 || z < 3);
     for (name, surface, scale) in [
         ("wall", cuboid([12, 12, 1]), Point::new(1.0, 1.0, 0.6)),
+        ("sheet", cuboid([12, 12, 1]), Point::new(1.0, 1.0, 0.04)),
         ("rod", cuboid([16, 1, 1]), Point::new(1.0, 0.7, 0.7)),
         ("hole", hole, Point::new(0.8, 0.8, 1.0)),
         ("slot", slot, Point::new(0.6, 1.0, 1.0)),
@@ -170,11 +171,21 @@ fn what_is_thinner_than_cells_is_kept() {
         };
         let (kept, plain) = (made(true), made(false));
         assert_eq!(check_hexes(&kept.mesh), [], "{name}");
-        assert!(kept.report.has_right_euler() && kept.lost.is_empty(), "{name}: {:?}", kept.report);
+        assert!(kept.report.is_of_kind() && kept.lost.is_empty(), "{name}: {:?}", kept.report);
         // At either end along each axis no more than an edge is missing.
         let (reach, wanted) = (kept.mesh.bounds(), solid.bounds());
         let missing = (reach.min - wanted.min).max(wanted.max - reach.max).max_element();
         assert!(missing < 1.0, "{name}: {missing}");
         assert!(kept.report.thin > 0 && plain.report.thin == 0, "{name}");
     }
+}
+
+/// Of a plate thinner than cells a crumb may be left, which is a ball as the plate is.
+#[test]
+fn what_lacks_most_of_the_solid_is_not_of_its_kind() {
+    let report =
+        |euler, volume_ratio| CoreReport { euler, solid_euler: 2, volume_ratio, ..CoreReport::default() };
+    let off = [(2, 0.6), (0, 3.0), (-20, 1.0), (2, 0.4), (0, 0.4)].map(|(e, v)| report(e, v).off_kind());
+    assert!(off[0] == 0 && off.is_sorted_by(|a, b| a < b), "{off:?}");
+    assert!(report(2, 0.5).is_of_kind() && !report(2, 0.49).is_of_kind());
 }

@@ -51,13 +51,15 @@ pub(super) struct Boundary {
     /// Four nodes each, anticlockwise seen from outside.
     pub quads: Vec<[u32; 4]>,
     pub spokes: Vec<Spoke>,
+    /// Do its faces look the way the solid's do, so that this tells two sides apart that are near each other?
+    pub looks_alike: bool,
     /// Where the spokes of each node start, and the end of the last.
     first: Vec<u32>,
     tree: RTree<GeomWithData<[f64; 3], u32>>,
 }
 
 impl Boundary {
-    pub fn of(mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+    pub fn of(mesh: &HexMesh, looks_alike: bool, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let faces = hex_boundary(&mesh.hexes);
         monitor.proceed()?;
         let mut number = vec![NONE; mesh.positions.len()];
@@ -74,7 +76,7 @@ impl Boundary {
         let leaves = points.iter().zip(0..).map(|(p, n)| GeomWithData::new(p.to_array(), n));
         let tree = RTree::bulk_load(leaves.collect());
         let mut boundary =
-            Self { nodes, points, normals: vec![], lengths: vec![], quads, spokes, first, tree };
+            Self { nodes, points, normals: vec![], lengths: vec![], quads, spokes, looks_alike, first, tree };
         monitor.proceed()?;
         boundary.count_hexes(mesh, &number);
         boundary.lengths = parallel::collect(boundary.nodes.len(), |n| boundary.mean_length(n as u32));

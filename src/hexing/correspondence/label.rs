@@ -20,6 +20,9 @@ use crate::{Cancelled, Monitor};
 /// The quads nearest to a surface have to have this share of its area for it not to be lost.
 const PRESENT: f64 = 0.3;
 
+/// Edges: how far before a quad the surface is looked for that it stands for.
+const BEFORE: f64 = 0.25;
+
 /// Surfaces that are one, and the surface of each quad.
 pub(super) struct Labels {
     pub of_quads: Vec<SurfaceId>,
@@ -90,7 +93,8 @@ fn regions(boundary: &Boundary, sides: &[Option<SurfaceId>]) -> (Vec<u32>, usize
     (regions, count as usize)
 }
 
-/// For each quad the surface nearest to its middle.
+/// For each quad the surface nearest to its middle, or to a place before it where the mesh's faces look the way the solid's do: of a
+/// thin shell the middle may be nearer to the other side.
 fn nearest_surfaces(
     boundary: &Boundary,
     solid: &SolidModel,
@@ -99,7 +103,10 @@ fn nearest_surfaces(
     parallel::try_collect(boundary.quads.len(), monitor, |q| {
         let corners = boundary.quads[q].map(|n| boundary.points[n as usize]);
         let middle = corners.into_iter().sum::<Point>() / 4.0;
-        solid.surface_of(solid.nearest(middle).triangle as usize)
+        let before =
+            if boundary.looks_alike { BEFORE * boundary.lengths[boundary.quads[q][0] as usize] } else { 0.0 };
+        let place = middle + boundary.area_vector(q as u32).normalize_or_zero() * before;
+        solid.surface_of(solid.nearest(place).triangle as usize)
     })
 }
 

@@ -55,8 +55,29 @@ pub fn correspond(
     solid: &SolidModel,
     monitor: &dyn Monitor,
 ) -> Result<Correspondence, Cancelled> {
+    found(mesh, solid, false, monitor)
+}
+
+/// The same of a mesh whose faces look the way the solid's do, which tells apart sides that are near each other.
+///
+/// # Errors
+/// If the monitor stops it.
+pub fn correspond_alike(
+    mesh: &HexMesh,
+    solid: &SolidModel,
+    monitor: &dyn Monitor,
+) -> Result<Correspondence, Cancelled> {
+    found(mesh, solid, true, monitor)
+}
+
+fn found(
+    mesh: &HexMesh,
+    solid: &SolidModel,
+    looks_alike: bool,
+    monitor: &dyn Monitor,
+) -> Result<Correspondence, Cancelled> {
     monitor.checkpoint(CORRESPONDENCE, 0.0)?;
-    let boundary = Boundary::of(mesh, monitor)?;
+    let boundary = Boundary::of(mesh, looks_alike, monitor)?;
     let mut network = Network::of(solid);
     low::give_up_low(&mut network, &boundary);
     network::give_up_short(&mut network, &boundary);

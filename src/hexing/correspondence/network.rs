@@ -73,6 +73,22 @@ impl<'a> Network<'a> {
         &self.arms[corner.index()]
     }
 
+    /// The outward unit normal so far along a curve from its start.
+    pub fn normals_along(&self, curve: CurveId) -> impl Fn(f64) -> Point {
+        let vertices = &self.solid.curves()[curve.index()].vertices;
+        let place = |v: u32| self.solid.points()[v as usize];
+        let ends = vertices.windows(2).scan(0.0, |end, ends| {
+            *end += place(ends[0]).distance(place(ends[1]));
+            Some(*end)
+        });
+        let ends: Vec<f64> = ends.collect();
+        move |at| {
+            let edge = ends.partition_point(|&end| end < at).min(ends.len() - 1);
+            let both = [edge, edge + 1].map(|k| self.solid.normal_at(vertices[k]));
+            both.iter().sum::<Point>().normalize_or_zero()
+        }
+    }
+
     /// Corners that stand for themselves, ascending, and either have a curve or never had one.
     pub fn standing_corners(&self) -> impl Iterator<Item = CornerId> + use<'_> {
         let stands = |&c: &CornerId| {

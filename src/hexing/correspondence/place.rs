@@ -158,7 +158,9 @@ impl Placer<'_> {
             self.fit(stop, node, &|arm, spoke| Some(self.value(stop, arm, node, spoke, penalties)))?;
         let misfit = if arms.is_empty() { 0.0 } else { ARMS * (1.0 - fit / arms.len() as f64) };
         let spare = (self.boundary.valence(node) as f64 - arms.len().max(3) as f64).abs();
-        let tilt = if normal.length_squared() > 0.0 { NORMAL * (1.0 - normal.dot(n)) } else { 0.0 };
+        // Only of a mesh whose faces look the way the solid's do does that tell more of a place than its distance.
+        let counts = self.boundary.looks_alike || !arms.is_empty();
+        let tilt = if counts && normal.length_squared() > 0.0 { NORMAL * (1.0 - normal.dot(n)) } else { 0.0 };
         let penalty = penalties.nodes.get(&(*key, node)).copied().unwrap_or(0.0);
         Some(away * away + misfit + SPARE * spare + tilt + penalty)
     }

@@ -107,10 +107,12 @@ fn close(
     let h = length_near(network.point_along(curve, 0.0));
     let count: u32 = if length < 4.0 * CLOSE * h { 3 } else { 4 };
     let (first, share) = (stops.len() as u32, length / f64::from(count));
+    let normal = network.normals_along(curve);
     for place in 0..count {
         let point = network.point_along(curve, share * f64::from(place));
         let key = StopKey::Place(curve, place);
-        stops.push(Stop { key, point, normal: Point::ZERO, arms: Vec::new() });
+        let normal = normal(share * f64::from(place));
+        stops.push(Stop { key, point, normal, arms: Vec::new() });
         let ends = [first + place, first + (place + 1) % count];
         legs.push(Leg { curve, place, stops: ends, arms: [super::boundary::NONE; 2], length: share });
     }

@@ -7,5 +7,6 @@ mod gates;
 mod motions;
 mod parts;
 mod second_order;
+mod shells;
 
 use crate::hexes::meshes;

@@ -44,6 +44,7 @@ export const BACKGROUNDS: readonly { background: SolidSettings['background']; la
   { background: 'auto', label: 'Auto', note: 'What suits the solid' },
   { background: 'swept', label: 'Swept', note: 'Quads of an outline, in layers: for parts that are extruded' },
   { background: 'grid', label: 'Grid', note: 'A grid with lines in planar faces' },
+  { background: 'shell', label: 'Shell', note: 'A layer between two sides: for thin shells, however curved' },
   { background: 'octree', label: 'Octree', note: 'A grid, refined where the solid has details' },
 ];
 

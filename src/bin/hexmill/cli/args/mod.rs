@@ -200,7 +200,9 @@ pub(crate) enum BackgroundArg {
     Swept,
     /// A grid along the solid's main axes, its planes moved to planar surfaces
     Grid,
-    /// Such a grid of edges twice as long, refined at the boundary, and more where smaller hexes are wanted
+    /// A layer of hexes between the two sides of a thin shell, however curved
+    Shell,
+    /// A grid of edges twice as long, refined at the boundary, and more where smaller hexes are wanted
     Octree,
 }
 
@@ -210,6 +212,7 @@ impl From<BackgroundArg> for Background {
             BackgroundArg::Auto => Self::Auto,
             BackgroundArg::Swept => Self::Swept,
             BackgroundArg::Grid => Self::Grid,
+            BackgroundArg::Shell => Self::Shell,
             BackgroundArg::Octree => Self::Octree,
         }
     }
