@@ -214,7 +214,7 @@ mod tests {
             distance: apart,
         };
         AttemptReport {
-            core: CoreReport { euler, solid_euler: 2, ..CoreReport::default() },
+            core: CoreReport { euler, solid_euler: 2, volume_ratio: 1.0, ..CoreReport::default() },
             features: Some(features),
             mesh: Some(mesh),
             ..AttemptReport::default()

@@ -17,15 +17,16 @@ import type { Project } from './project.js';
  * The most that each module may weigh when compressed, in bytes. Those of hexes and solids are fetched when they are first asked for.
  * That of surfaces is compiled for speed all through: the last tenth of its rate costs a tenth of its size. Those of hexes and of
  * solids hold kernels that look at four hexes side by side, in twice the code and half the time; that of
- * solids also what brings a boundary near to its solid, and what shows walls thinner than hexes are long.
+ * solids also what brings a boundary near to its solid, what shows walls thinner than hexes are long,
+ * and the layers of shells.
  */
 const BUDGETS = {
   mesher: 490_000,
   'mesher-threads': 505_000,
   hexes: 585_000,
   'hexes-threads': 595_000,
-  solids: 975_000,
-  'solids-threads': 985_000,
+  solids: 990_000,
+  'solids-threads': 1_000_000,
 };
 
 /** A cancelled call has to leave the processor to the next within this time, in milliseconds. */

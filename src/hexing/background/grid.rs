@@ -195,6 +195,7 @@ pub(super) fn grid_around(
     Ok(laid(solid, options, (reach, false), monitor)?.0)
 }
 
+#[inline(never)] // Compiled once for all that call it.
 fn laid(
     solid: &SolidModel,
     options: &AlignedGrid,

@@ -88,6 +88,7 @@ pub(in super::super) fn refined(
 }
 
 /// Refines a background, whose hexes may stand in blocks, in the regions.
+#[inline(never)] // Compiled once for all that call it.
 fn refined_in(
     background: HexMesh,
     blocks: Option<HexBlocks>,

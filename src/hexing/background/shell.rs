@@ -49,7 +49,7 @@ impl Shell {
         monitor: &dyn Monitor,
     ) -> Result<HexMesh, BackgroundError> {
         let max_hexes = options.max_hexes.saturating_mul(CELLS);
-        let grid = grid_around(solid, &AlignedGrid { max_hexes, ..options.clone() }, AROUND, monitor)?;
+        let grid = grid_around(solid, &AlignedGrid { max_hexes, ..*options }, AROUND, monitor)?;
         let middle = quads_between(&self.sides, &grid, options.edge_length, monitor)?;
         let layers = (self.sides.thickness / options.edge_length).round().max(1.0);
         let hexes = layers * middle.quads.len() as f64;

@@ -11,8 +11,6 @@
 //! A shell has two sides that hang together, each of which is behind the other: plates, bent or curved both ways, bowls, pipes and
 //! hollow bodies; none with ribs, or whose thickness changes by more than a factor of about two.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use crate::geometry::{NearestTriangle, Point, area_vector};
 use crate::mesh::topology::Sets;
 use crate::solid::{Curve, CurveId, SolidModel, SurfaceId};
@@ -177,20 +175,21 @@ fn parts(solid: &SolidModel, behind: &[u32]) -> Vec<u32> {
     let normal = |t: usize| solid.normals()[t];
     let is_smooth = |a: usize, b: usize| is_side[a] || normal(a).dot(normal(b)) > SMOOTH;
     let part = joined(solid, |a, b| is_side[a] == is_side[b] && is_smooth(a, b));
-    let (mut facing, mut beside) = (BTreeSet::new(), BTreeMap::<u32, BTreeSet<u32>>::new());
-    for (t, &other) in behind.iter().enumerate() {
-        if other != NONE {
-            facing.insert((part[t], part[other as usize]));
-        } else {
-            let others = across(solid, t).into_iter().filter(|&other| is_side[other]);
-            beside.entry(part[t]).or_default().extend(others.map(|other| part[other]));
+    let mut facing = Sets::new(behind.len());
+    for (t, &other) in behind.iter().enumerate().filter(|(_, other)| **other != NONE) {
+        facing.join(part[t], part[other as usize], true);
+    }
+    // A part of the sides beside each part that is of none, and whether there is one that faces it.
+    let (mut beside, mut is_rim) = (vec![None; behind.len()], vec![false; behind.len()]);
+    for t in (0..behind.len()).filter(|&t| behind[t] == NONE) {
+        for other in across(solid, t).into_iter().filter(|&other| is_side[other]) {
+            let (root, odd) = facing.root(part[other]);
+            let first = *beside[part[t] as usize].get_or_insert((root, odd));
+            is_rim[part[t] as usize] |= first == (root, !odd);
         }
     }
-    for (t, &part) in part.iter().enumerate().filter(|&(t, _)| behind[t] == NONE) {
-        let beside = &beside[&part];
-        let of = |part: u32| facing.range((part, 0)..=(part, NONE)).map(|&(_, other)| other);
-        is_side[t] =
-            !beside.is_empty() && !beside.iter().any(|&part| of(part).any(|other| beside.contains(&other)));
+    for t in (0..behind.len()).filter(|&t| behind[t] == NONE) {
+        is_side[t] = beside[part[t] as usize].is_some() && !is_rim[part[t] as usize];
     }
     joined(solid, |a, b| is_side[a] == is_side[b])
 }

@@ -27,6 +27,7 @@ pub(super) fn distinct<T: Ord>(mut all: Vec<T>) -> Vec<T> {
 
 impl<'a> Cells<'a> {
     /// Looks a conforming mesh over.
+    #[inline(never)] // Compiled once for all that call it.
     pub fn of(mesh: &'a HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
         let node_count = mesh.positions.len();
         let faces = HexFaces::within(node_count, &mesh.hexes, monitor)?;

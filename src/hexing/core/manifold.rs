@@ -36,6 +36,7 @@ pub(in super::super) struct Repairs {
 
 /// Changes as few and as shallow cells as may be, until `inside` is bounded by a manifold and no shallow cell stands
 /// out, or is missing, alone. `depth` is how deep each cell lies outside, in edge lengths; negative inside.
+#[inline(never)] // Compiled once for all that call it.
 pub(in super::super) fn make_manifold(
     cells: &Cells<'_>,
     depth: &[f64],

@@ -159,7 +159,6 @@ fn what_is_thinner_than_cells_is_kept() {
     let slot = voxels([9, 9, 6], |[x, _, z]| x != 4 || z < 3);
     for (name, surface, scale) in [
         ("wall", cuboid([12, 12, 1]), Point::new(1.0, 1.0, 0.6)),
-        ("sheet", cuboid([12, 12, 1]), Point::new(1.0, 1.0, 0.04)),
         ("rod", cuboid([16, 1, 1]), Point::new(1.0, 0.7, 0.7)),
         ("hole", hole, Point::new(0.8, 0.8, 1.0)),
         ("slot", slot, Point::new(0.6, 1.0, 1.0)),

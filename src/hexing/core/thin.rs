@@ -23,7 +23,7 @@ use crate::mesh::numbering::hex::EDGES;
 use crate::{Cancelled, Monitor, parallel};
 
 /// Share of w: what is thinner is lost.
-const LEAST: f64 = 0.01;
+const LEAST: f64 = 0.2;
 /// The cosine between the normals of two walls that face each other, at most: -.5 where they meet at 60 degrees.
 const FACING: f64 = -0.5;
 

@@ -70,6 +70,7 @@ pub fn correspond_alike(
     found(mesh, solid, true, monitor)
 }
 
+#[inline(never)] // Compiled once for all that call it.
 fn found(
     mesh: &HexMesh,
     solid: &SolidModel,

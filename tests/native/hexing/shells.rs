@@ -81,7 +81,7 @@ proptest! {
     #[test]
     fn random_shells_are_meshed(plate in plates(), edge_length in 0.8..1.3) {
         let options = HexingOptions { edge_length, background: Background::Shell, ..HexingOptions::default() };
-        let hexed: HexedSolid = hex_solid(&plate.surface(), &options, &Silent).expect("a mesh");
+        let hexed: HexedSolid = hex_solid(plate.surface(), &options, &Silent).expect("a mesh");
         assert_sound(&hexed, "a shell");
         let result = hexed.report.result();
         prop_assert!(result.euler == result.solid_euler && result.crossings.is_empty());
