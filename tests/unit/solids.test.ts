@@ -176,7 +176,7 @@ describe.each([1, 2])('solids on %i threads', (threads) => {
   it('tell progress by stage, which never falls within one', async () => {
     const reached = new Map<string, number>();
     await mesher.meshSolid(CUBE, {
-      edgeLength: 0.04,
+      edgeLength: 0.02,
       onProgress: ({ stage, fraction }: Progress) => {
         expect(fraction).toBeGreaterThanOrEqual(reached.get(stage) ?? 0);
         expect(fraction).toBeLessThanOrEqual(1);
