@@ -42,10 +42,10 @@ export const METHODS: readonly { method: HexSettings['method']; label: string; n
 /** The backgrounds of solids by what they are called. */
 export const BACKGROUNDS: readonly { background: SolidSettings['background']; label: string; note: string }[] = [
   { background: 'auto', label: 'Auto', note: 'What suits the solid' },
-  { background: 'swept', label: 'Swept', note: 'Quads of an outline, in layers: for parts that are extruded' },
+  { background: 'swept', label: 'Swept', note: 'Quads of an outline, in layers' },
   { background: 'grid', label: 'Grid', note: 'A grid with lines in planar faces' },
-  { background: 'shell', label: 'Shell', note: 'A layer between two sides: for thin shells, however curved' },
-  { background: 'octree', label: 'Octree', note: 'A grid, refined where the solid has details' },
+  { background: 'shell', label: 'Shell', note: 'A layer between two sides' },
+  { background: 'octree', label: 'Octree', note: 'A grid, refined' },
 ];
 
 /** The hexes of solids by their nodes. */

@@ -68,7 +68,7 @@ const DOING: Readonly<Record<string, string>> = {
   tidy: 'tidying quads',
   smooth: 'smoothing quads',
   sweep: 'sweeping quads',
-  shell: 'laying quads between two sides',
+  shell: 'smoothing quads',
   background: 'laying out cells',
   input: 'matching cells',
   core: 'choosing cells inside',
