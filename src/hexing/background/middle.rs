@@ -1,11 +1,11 @@
 //! Quads in the middle between the sides of a shell.
 //!
 //! ```text
-//!   +---+---+                      +---+---+
-//!   |   |   |   \                  |   |   |\
-//!   +---+---+    \  the rim        +---+---+ \       A ring of quads between those that were found and the rim: else a
-//!       |   |     \                 \   \  |\ \      corner of those would be straight there.
-//!       +---+      \                 \   +-+-+ \
+//!   +---+---+---  .             +---+---+---  .
+//!   |   |   |      .            |   |   |   \__.       Those between cells that are nearer to one side and those nearer to the
+//!   +---+---+       .  rim      +---+---+____\_.       other end in steps at the rim. A ring of quads leads from these to the
+//!   |   |            .          |   |   \______\.      rim, with one more where the rim turns outwards: no corner of a quad
+//!   +---+             .         +---+____\______\     is straight there.
 //! ```
 
 use super::sides::{Sides, Turn};

@@ -34,6 +34,15 @@ const HALF: f64 = 0.5;
 /// Of a side that is less than this share of the other nothing is known.
 const LEAST: f64 = 0.3;
 
+/// The cosine between the normals of triangles of one part that is of no side, at least.
+const SMOOTH: f64 = 0.7;
+
+/// Degrees: where surfaces of the rim meet at an angle so far from a straight one the rim turns.
+const CORNER: f64 = 45.0;
+
+/// No triangle.
+const NONE: u32 = u32::MAX;
+
 /// The sides of a shell.
 #[derive(Debug)]
 pub(super) struct Sides {
@@ -45,21 +54,12 @@ pub(super) struct Sides {
     corners: Vec<Turn>,
 }
 
-/// The cosine between the normals of triangles of one part that is of no side, at least.
-const SMOOTH: f64 = 0.7;
-
-/// Degrees: where surfaces of the rim meet at an angle so far from a straight one the rim turns.
-const CORNER: f64 = 45.0;
-
 /// Where a rim turns: the middle of the curve from side to side there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Turn {
     pub(super) place: Point,
     pub(super) is_outward: bool,
 }
-
-/// No side.
-const NONE: u32 = u32::MAX;
 
 impl Sides {
     /// The sides of a solid, if it is a shell.
