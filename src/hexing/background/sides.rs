@@ -211,7 +211,7 @@ fn across(solid: &SolidModel, t: usize) -> [usize; 3] {
     [0, 1, 2].map(|side| solid.across(t, side) as usize)
 }
 
-#[cfg(all(test, not(target_arch = "wasm32")))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::Silent;
