@@ -68,7 +68,7 @@ const DOING: Readonly<Record<string, string>> = {
   tidy: 'tidying quads',
   smooth: 'smoothing quads',
   sweep: 'sweeping quads',
-  shell: 'smoothing quads',
+  shell: 'laying quads',
   background: 'laying out cells',
   input: 'matching cells',
   core: 'choosing cells inside',
