@@ -7,6 +7,8 @@
 //!    the options allow, and as long as it helps: before such an attempt is fitted it has to show clearly more, unless it is
 //!    made for more than what was lost. Of a core that is not of the solid's kind it is not always known where it differs:
 //!    then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was lost alone.
+//!    Before all of that comes a layer between two sides where the solid is a thin shell of which a grid would capture little; and
+//!    here, where it is one of which cells are bad, or that is not shown.
 //! 3. Where the best is a sweep that does not show some part of the solid, or whose cells are bad, a grid; one that is better
 //!    but does not show all is refined in its turn.
 //! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
