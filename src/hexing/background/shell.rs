@@ -11,8 +11,10 @@ use super::grid::{AlignedGrid, BackgroundError, grid_around};
 use super::middle::quads_between;
 use super::sides::Sides;
 use crate::geometry::{Point, area_vector};
+use crate::mesh::quality::{Certainty, is_positive};
 use crate::mesh::topology::Bins;
 use crate::mesh::{HexMesh, NodeId, QuadMesh};
+use crate::optimize::{Constraints, OptimizeOptions, optimize};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, parallel};
 
@@ -56,7 +58,9 @@ impl Shell {
         if hexes > options.max_hexes as f64 {
             return Err(BackgroundError::TooManyHexes { hexes, limit: options.max_hexes });
         }
-        Ok(self.thickened(&middle, layers as usize, monitor)?)
+        let mut mesh = self.thickened(&middle, layers as usize, monitor)?;
+        untangle(&mut mesh, monitor)?;
+        Ok(mesh)
     }
 
     /// Hexes from side to side on each quad, in layers.
@@ -93,11 +97,25 @@ impl Shell {
     }
 }
 
+/// Moves the nodes of hexes that are not positive, as quads that are folded make them, until they are.
+fn untangle(mesh: &mut HexMesh, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+    let corners = |hex: &[NodeId; 8]| hex.map(|n| mesh.positions[n.index()]);
+    let is_bad = |h: usize| is_positive(&corners(&mesh.hexes[h])) != Certainty::Positive;
+    let bad = parallel::try_filter(mesh.hexes.len(), monitor, is_bad)?;
+    if bad.is_empty() {
+        return Ok(());
+    }
+    let mut moves = vec![false; mesh.positions.len()];
+    bad.iter().flat_map(|&h| mesh.hexes[h as usize]).for_each(|n| moves[n.index()] = true);
+    let free = Constraints::none(moves.len());
+    optimize(&mut mesh.positions, &mesh.hexes, &moves, &free, &OptimizeOptions::default(), monitor)?;
+    Ok(())
+}
+
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
     use super::*;
     use crate::Silent;
-    use crate::mesh::quality::{Certainty, is_positive};
     use crate::mesh::topology::{HexTopology, hex_report};
     use crate::mesh::{PolygonMesh, check_hexes};
     use crate::solid::testing::{bent, hollow_ball, solid, voxels};
