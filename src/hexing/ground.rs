@@ -131,10 +131,10 @@ impl<'a> Site<'a> {
         Ok(self.sweep(true).is_some())
     }
 
-    /// May it be a layer between the sides of a shell? As that is found out, so it may.
+    /// Is it a choice whether to take a layer between the sides of a shell, and may one be made? As that is found out, so it may.
     pub(super) fn may_be_shell(&self, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
         let is_thin = || thickness(self.solid) < LAYERS * self.options.edge_length;
-        if self.options.background == Background::Auto && !is_thin() {
+        if self.options.background != Background::Auto || !is_thin() {
             return Ok(false);
         }
         if self.shell.get().is_none() {

@@ -39,8 +39,7 @@ impl Shell {
         Ok(Sides::of(solid, monitor)?.map(|sides| Self { sides }))
     }
 
-    /// The hexes, a layer with edges about as long as the grid's along the shell: conforming, and a manifold with boundary, but for
-    /// nodes at the rim where hexes may share no face.
+    /// The hexes, a layer with edges about as long as the grid's along the shell: conforming, and a manifold with boundary.
     ///
     /// # Errors
     /// See [`BackgroundError`].

@@ -140,13 +140,17 @@ fn shells_are_layers_from_side_to_side() {
     }
 }
 
-/// A bent plate is one where that is asked for, also where it is thick; a cube is none.
+/// A bent plate is one where that is asked for, also where it is thick, and none where a grid is; a cube is none.
 #[test]
 fn shells_are_made_where_they_are_asked_for() {
     let options =
         HexingOptions { edge_length: 1.0, background: Background::Shell, ..HexingOptions::default() };
     let plate = bent(16, 4.0, |x, _| 0.01 * x * x);
     assert_eq!(kept_with(&plate, &options).0, Background::Shell);
+    let thin = solid(&bent(12, 0.3, |x, y| 0.03 * (x * x - y * y)));
+    let grids = HexingOptions { background: Background::Grid, ..options.clone() };
+    let Body { report, .. } = mesh_body(&thin, &grids, &Silent).unwrap();
+    assert!(report.attempts.iter().all(|attempt| attempt.background == Background::Grid));
     let cube = solid(&voxels([4, 4, 4], |_| true));
     let refused = mesh_body(&cube, &options, &Silent).err();
     assert_eq!(refused, Some(HexingError::Background(BackgroundError::NoShell)));
