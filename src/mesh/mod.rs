@@ -21,6 +21,7 @@ pub mod topology;
 mod volume;
 mod weld;
 
+pub(crate) use check::hanging_on;
 pub use check::{Defect, check_hexes, check_hexes_within, check_polygons, check_quads};
 pub(crate) use crossing::{crossings, meeting};
 pub(crate) use distance::farthest_from_quads;

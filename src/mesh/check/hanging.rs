@@ -5,7 +5,7 @@ use rstar::{AABB, RTree, RTreeObject};
 use super::Defect;
 use crate::geometry::{Aabb, Point};
 use crate::mesh::topology::{Edges, used_nodes};
-use crate::mesh::{Faces, HexId, NodeId};
+use crate::mesh::{Faces, NodeId};
 use crate::{Cancelled, Monitor, Silent, parallel};
 
 /// Every node that lies inside an edge of which it is no end, among all edges: on a surface that passes,
@@ -13,14 +13,25 @@ use crate::{Cancelled, Monitor, Silent, parallel};
 /// at the edges of one face alone.
 pub fn hanging_nodes(mesh: &impl Faces) -> Vec<Defect> {
     let found = inside(mesh.positions(), &used_nodes(mesh), Edges::of(mesh).ends, &Silent);
-    found.expect("nobody stops it")
+    found.expect("nobody stops it").into_iter().map(defect).collect()
+}
+
+/// A node, and the edge that it is inside of.
+pub(super) type InEdge = (NodeId, [NodeId; 2]);
+
+/// A node, and the place of the face that it is inside of.
+pub(super) type InFace = (NodeId, u32);
+
+/// A node inside an edge, as a defect.
+pub(super) fn defect((node, edge): InEdge) -> Defect {
+    Defect::HangingNode { node, edge }
 }
 
 /// A node counts as inside an edge if it is nearer to the edge than this share of its length, and
 /// farther than that from its ends: what a file of six significant digits leaves of a coordinate.
 const NEAR: f64 = 1e-6;
 
-/// The `used` nodes that lie inside one of `edges`, in order of nodes, then of edges.
+/// The `used` nodes that lie inside one of `edges`, each with the edge, in order of nodes, then of edges.
 ///
 /// # Errors
 /// If the monitor stops it.
@@ -29,7 +40,7 @@ pub(super) fn inside(
     used: &[bool],
     edges: Vec<[NodeId; 2]>,
     monitor: &dyn Monitor,
-) -> Result<Vec<Defect>, Cancelled> {
+) -> Result<Vec<InEdge>, Cancelled> {
     let trees = Trees::of(edges.into_iter().map(|ends| Segment::new(positions, ends)), monitor)?;
     parallel::try_gather(positions.len(), monitor, |n, found| {
         if !used[n] {
@@ -39,21 +50,21 @@ pub(super) fn inside(
         let near = trees.at(positions[n]);
         let mut edges: Vec<_> = near.filter(|s| s.holds(positions, node)).map(|s| s.ends).collect();
         edges.sort_unstable();
-        found.extend(edges.into_iter().map(|edge| Defect::HangingNode { node, edge }));
+        found.extend(edges.into_iter().map(|edge| (node, edge)));
     })
 }
 
-/// The `used` nodes that lie inside one of `faces` of hexes, in order of nodes, then of hexes.
+/// The `used` nodes that lie inside one of `faces`, each with the face's place among them, in order of nodes, then of faces.
 ///
 /// # Errors
 /// If the monitor stops it.
 pub(super) fn inside_faces(
     positions: &[Point],
     used: &[bool],
-    faces: Vec<(HexId, [NodeId; 4])>,
+    faces: &[[NodeId; 4]],
     monitor: &dyn Monitor,
-) -> Result<Vec<Defect>, Cancelled> {
-    let patches = faces.into_iter().map(|(hex, nodes)| Patch::new(positions, hex, nodes));
+) -> Result<Vec<InFace>, Cancelled> {
+    let patches = (0..).zip(faces).map(|(place, &nodes)| Patch::new(positions, place, nodes));
     let trees = Trees::of(patches, monitor)?;
     parallel::try_gather(positions.len(), monitor, |n, found| {
         if !used[n] {
@@ -61,9 +72,9 @@ pub(super) fn inside_faces(
         }
         let node = NodeId::new(n);
         let near = trees.at(positions[n]);
-        let mut faces: Vec<_> = near.filter(|f| f.holds(positions, node)).map(|f| (f.hex, f.nodes)).collect();
+        let mut faces: Vec<u32> = near.filter(|f| f.holds(positions, node)).map(|f| f.place).collect();
         faces.sort_unstable();
-        found.extend(faces.into_iter().map(|(hex, face)| Defect::HangingNodeInFace { node, face, hex }));
+        found.extend(faces.into_iter().map(|face| (node, face)));
     })
 }
 
@@ -96,7 +107,7 @@ impl<T: RTreeObject<Envelope = AABB<[f64; 3]>>> Trees<T> {
 
 /// A bilinear face.
 struct Patch {
-    hex: HexId,
+    place: u32,
     nodes: [NodeId; 4],
     envelope: AABB<[f64; 3]>,
 }
@@ -105,10 +116,10 @@ struct Patch {
 const STEPS: usize = 8;
 
 impl Patch {
-    fn new(positions: &[Point], hex: HexId, nodes: [NodeId; 4]) -> Self {
+    fn new(positions: &[Point], place: u32, nodes: [NodeId; 4]) -> Self {
         let bounds = Aabb::around(&nodes.map(|n| positions[n.index()]));
         let bounds = bounds.grown(NEAR * bounds.diagonal());
-        Self { hex, nodes, envelope: AABB::from_corners(bounds.min.to_array(), bounds.max.to_array()) }
+        Self { place, nodes, envelope: AABB::from_corners(bounds.min.to_array(), bounds.max.to_array()) }
     }
 
     fn holds(&self, positions: &[Point], node: NodeId) -> bool {

@@ -12,7 +12,9 @@
 //!
 //! Time grows linearly with the mesh, but for the search trees over the boundary of step 8.
 
-use super::{Defect, hanging, not_finite, repeated_node};
+use super::hanging::{self, InEdge, InFace};
+use super::{Defect, not_finite, repeated_node};
+use crate::geometry::Point;
 use crate::mesh::orientation::inverted_corners;
 use crate::mesh::topology::{Bins, HexFaces, HexTopology, NodeSets, Side, degrees, hex_of, side_nodes};
 use crate::mesh::{EdgeId, FaceId, HexId, HexMesh, NodeId};
@@ -87,7 +89,9 @@ fn by_topology(
 
 /// What step 8 looks at.
 struct Boundary {
-    faces: Vec<(HexId, [NodeId; 4])>,
+    faces: Vec<[NodeId; 4]>,
+    /// The hex of each.
+    hexes: Vec<HexId>,
     /// Is a node on it?
     has: Vec<bool>,
 }
@@ -95,25 +99,58 @@ struct Boundary {
 impl Boundary {
     fn of(topology: &HexTopology) -> Self {
         let HexTopology { faces, links, .. } = topology;
-        let open = faces.ids().filter(|&f| faces.is_boundary(f));
-        let of_hex = |f: FaceId| (hex_of(faces.sides(f)[0]), faces.nodes[f.index()]);
-        Self { faces: open.map(of_hex).collect(), has: links.on_boundary.clone() }
+        let open = || faces.ids().filter(|&f| faces.is_boundary(f));
+        Self {
+            faces: open().map(|f| faces.nodes[f.index()]).collect(),
+            hexes: open().map(|f| hex_of(faces.sides(f)[0])).collect(),
+            has: links.on_boundary.clone(),
+        }
     }
 
     /// Step 8, if all coordinates are finite.
     fn hanging(self, mesh: &HexMesh, monitor: &dyn Monitor) -> Result<Vec<Defect>, Cancelled> {
-        let Self { faces, has } = self;
+        let Self { faces, hexes, has } = self;
         if !not_finite(&mesh.positions).is_empty() {
             return Ok(Vec::new());
         }
-        let mut edges: Vec<[NodeId; 2]> = faces.iter().flat_map(|(_, face)| edges_around(face)).collect();
-        edges.sort_unstable();
-        edges.dedup();
-        monitor.proceed()?;
-        let mut defects = hanging::inside(&mesh.positions, &has, edges, monitor)?;
-        defects.extend(hanging::inside_faces(&mesh.positions, &has, faces, monitor)?);
-        Ok(defects)
+        let (in_edges, in_faces) = hanging_in(&mesh.positions, &has, &faces, monitor)?;
+        let in_face = |(node, place): InFace| {
+            let (face, hex) = (faces[place as usize], hexes[place as usize]);
+            Defect::HangingNodeInFace { node, face, hex }
+        };
+        Ok(in_edges.into_iter().map(hanging::defect).chain(in_faces.into_iter().map(in_face)).collect())
     }
+}
+
+/// The nodes that lie inside an edge or a face of a boundary of which these are all faces, or some, in no order.
+///
+/// # Errors
+/// If the monitor stops it.
+pub(crate) fn hanging_on(
+    mesh: &HexMesh,
+    faces: &[[NodeId; 4]],
+    monitor: &dyn Monitor,
+) -> Result<Vec<NodeId>, Cancelled> {
+    let mut has = vec![false; mesh.positions.len()];
+    faces.as_flattened().iter().for_each(|n| has[n.index()] = true);
+    let (in_edges, in_faces) = hanging_in(&mesh.positions, &has, faces, monitor)?;
+    let nodes = in_edges.into_iter().map(|(node, _)| node).chain(in_faces.into_iter().map(|(node, _)| node));
+    Ok(nodes.collect())
+}
+
+/// Of the `used` nodes those inside edges of the faces, and those inside faces, each with what it is inside of.
+fn hanging_in(
+    positions: &[Point],
+    used: &[bool],
+    faces: &[[NodeId; 4]],
+    monitor: &dyn Monitor,
+) -> Result<(Vec<InEdge>, Vec<InFace>), Cancelled> {
+    let mut edges: Vec<[NodeId; 2]> = faces.iter().flat_map(edges_around).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    monitor.proceed()?;
+    let in_edges = hanging::inside(positions, used, edges, monitor)?;
+    Ok((in_edges, hanging::inside_faces(positions, used, faces, monitor)?))
 }
 
 /// The edges around a face, the lesser end first.

@@ -21,6 +21,7 @@ mod same_nodes;
 pub(crate) use defect::listed;
 pub use defect::{Defect, DefectCount, Severity, summary};
 pub use hanging::hanging_nodes;
+pub(crate) use hexes::hanging_on;
 pub use hexes::{check_hexes, check_hexes_on, check_hexes_within};
 
 use super::topology::{EdgeUses, Edges, disagrees, edge_ids, non_manifold_nodes, used_nodes};
@@ -99,7 +100,7 @@ fn check(mesh: &impl Faces) -> Vec<Defect> {
     if all_finite {
         let open = edge_ids(&edges).filter(|&e| uses.count(e) == 1).map(|e| edges.ends[e.index()]);
         let found = hanging::inside(mesh.positions(), &used, open.collect(), &Silent);
-        defects.extend(found.expect("nobody stops it"));
+        defects.extend(found.expect("nobody stops it").into_iter().map(hanging::defect));
     }
     defects
 }
