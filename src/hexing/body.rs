@@ -9,12 +9,12 @@
 //!    then thin walls, narrow gaps and short curves are refined. Where that would be many cells, what was lost alone.
 //!    Before all of that comes a layer between two sides where the solid is a thin shell of which a grid would capture little; and
 //!    here, where it is one of which cells are bad, or that is not shown.
-//! 3. Where the best is a sweep that does not show some part of the solid, or whose cells are bad, a grid; one that is better
-//!    but does not show all is refined in its turn.
+//! 3. Where the best is a sweep that does not show some part of the solid, or whose cells are bad, a grid, unless an octree
+//!    comes anyhow (5 second); one that is better but does not show all is refined in its turn.
 //! 4. Where cells of a grid are bad, grids whose lines stand elsewhere.
 //! 5. Where the best is still of another kind than the solid, far off it or without half of what somebody drew, an
 //!    octree, and 2 for that. What shows less than half before it is fitted, or lacks some part of the solid, is not fitted
-//!    before that.
+//!    before that; what is of another kind and shows hardly anything, not refined either.
 //! 6. Where the best is still such, a sweep that was no choice, and 2 for that: walls and wedges that are thinner than cells;
 //!    and where that is such, one that shows walls and steps however thin.
 //!
@@ -52,6 +52,10 @@ const FAR_GROWTH: f64 = 1.75;
 /// is not of the solid's kind.
 const OCTREE_GROWTH: f64 = 8.0;
 const KIND_GROWTH: f64 = 24.0;
+
+/// A draft of another kind than the solid that shows less than this share of what somebody drew shows hardly anything: here and
+/// there smaller cells do not mend that.
+const HARDLY: f64 = 0.25;
 
 /// A shell is first taken for one where a grid captures less than this share of its area.
 const MOSTLY: f64 = 0.5;
@@ -113,7 +117,9 @@ pub(super) fn mesh_body(
         search.shell()?;
     }
     let is_astray = search.is_astray();
-    if site.may_be_grid() && (is_astray || !search.is_good()) && !search.has_tried(Background::Grid) {
+    let is_missed = is_astray || !search.is_good();
+    let is_for_octree = search.waits() && search.octree_is_first();
+    if site.may_be_grid() && is_missed && !is_for_octree && !search.has_tried(Background::Grid) {
         search.another(site.plan(Background::Grid), search.limit())?;
         search.hold_walls()?;
         if is_astray && search.is_on(Background::Grid) {
@@ -133,6 +139,8 @@ pub(super) fn mesh_body(
         search.octree()?;
         if search.waits() {
             search.fit_best()?;
+            search.refine(options.max_hexes)?;
+        } else if search.shows_hardly_any() && !search.is_on(Background::Octree) {
             search.refine(options.max_hexes)?;
         }
     }
@@ -156,7 +164,9 @@ impl Search<'_> {
     /// what that missed, unless an octree comes first.
     #[inline(never)] // Compiled once for all that call it.
     fn refine(&mut self, max_hexes: u64) -> Result<(), HexingError> {
-        for round in 1..=self.site.options.max_levels {
+        let is_for_octree = self.may_try_octree() && self.shows_hardly_any();
+        let most = if is_for_octree { 0 } else { self.site.options.max_levels };
+        for round in 1..=most {
             if !self.is_refined(round, max_hexes)? {
                 if !self.waits() || self.octree_is_first() {
                     return Ok(());
@@ -220,9 +230,23 @@ impl Search<'_> {
 
     /// Will an octree be tried, whatever comes of a fit, since the best draft shows too little, or lacks a part?
     fn octree_is_first(&self) -> bool {
-        let may_be_octree = self.site.may_be_octree() && self.site.options.max_levels > 0;
         let lacks_part = self.best_report().is_some_and(|best| best.lacks_part);
-        may_be_octree && !self.has_tried(Background::Octree) && (self.shows_little() || lacks_part)
+        self.may_try_octree() && (self.shows_little() || lacks_part)
+    }
+
+    /// Is the best a draft of another kind than the solid that shows hardly anything of it?
+    fn shows_hardly_any(&self) -> bool {
+        self.best_report().is_some_and(|best| {
+            let is_other_draft = best.mesh.is_none() && best.core.off_kind() > 0;
+            is_other_draft && captured(best.features.as_ref()) < HARDLY
+        })
+    }
+
+    /// May there be an octree, that was neither tried nor refused yet?
+    fn may_try_octree(&self) -> bool {
+        let is_refused = self.refused.iter().any(|refused| refused.background == Background::Octree);
+        let may_be_octree = self.site.may_be_octree() && self.site.options.max_levels > 0;
+        may_be_octree && !self.has_tried(Background::Octree) && !is_refused
     }
 
     /// Tries an octree, with cells as small in details as there can be, and refines it if that is better.

@@ -264,6 +264,32 @@ fn of_the_drafts_that_wait_only_the_last_is_kept() {
     assert_eq!((kept, search.number()), (vec![false, true], Some(1)));
 }
 
+/// Smaller cells here and there do not help what shows next to nothing and is of another kind; others are refined, and so is this
+/// where an octree was refused.
+#[test]
+fn a_draft_of_another_kind_that_shows_hardly_anything_is_not_refined_before_an_octree_was_tried() {
+    let solid = solid(&voxels([4, 4, 4], |_| true));
+    let options = HexingOptions { edge_length: 1.0, ..HexingOptions::default() };
+    let site = Site::new(&solid, &options, &Silent).unwrap();
+    let attempts = |euler: i64, curves: usize, octree_limit: Option<u64>| {
+        let mut search = with_draft(&site, euler);
+        let features = search.attempts[0].features.as_mut().unwrap();
+        (features.curves.captured, features.surfaces.captured) = (curves, 0);
+        let lost = Failure { points: vec![Point::ZERO], level: 0, missed: Missed::Lost };
+        search.best.as_mut().unwrap().failures = vec![lost];
+        if let Some(limit) = octree_limit {
+            assert!(!search.another(site.plan(Background::Octree), limit).unwrap());
+        }
+        search.refine(options.max_hexes).unwrap();
+        search.attempts.len()
+    };
+    // Four of 18 curves and surfaces are less than a quarter.
+    assert_eq!(attempts(0, 4, None), 1);
+    for tried in [attempts(0, 5, None), attempts(2, 4, None), attempts(0, 4, Some(1))] {
+        assert!(tried > 1, "{tried}");
+    }
+}
+
 /// It is tried whatever comes of the fit.
 #[test]
 fn a_draft_that_shows_little_is_not_fitted_before_an_octree_was_tried() {
