@@ -26,7 +26,8 @@ pub(super) fn crossing_faces(
         let [a, b, c, d] = corners(f);
         [[a, b, c], [a, c, d]]
     };
-    let index = BoxIndex::within((0..faces.len()).map(|f| Aabb::around(&corners(f))), monitor)?;
+    let bounds: Vec<Aabb> = (0..faces.len()).map(|f| Aabb::around(&corners(f))).collect();
+    let index = BoxIndex::within(bounds, monitor)?;
     parallel::try_gather(faces.len(), monitor, |f, found| {
         let around = Aabb::around(&corners(f)).grown(tolerance);
         let is_apart = |&other: &usize| faces[f].0.iter().all(|n| !faces[other].0.contains(n));

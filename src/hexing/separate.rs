@@ -88,7 +88,8 @@ fn faces_near(mesh: &HexMesh, faces: &[Face], nodes: &[NodeId]) -> Vec<Face> {
     let around = AROUND * mesh.bounds().diagonal();
     let bounds = |quad: [NodeId; 4]| Aabb::around(&quad.map(|n| mesh.positions[n.index()])).grown(around);
     let is_of_them = |&&(quad, _): &&Face| quad.iter().any(|n| nodes.binary_search(n).is_ok());
-    let theirs = BoxIndex::new(faces.iter().filter(is_of_them).map(|&(quad, _)| bounds(quad)));
+    let of_them: Vec<Aabb> = faces.iter().filter(is_of_them).map(|&(quad, _)| bounds(quad)).collect();
+    let theirs = BoxIndex::new(of_them);
     let is_near = |&(quad, _): &Face| theirs.touching(&bounds(quad)).next().is_some();
     faces.iter().copied().filter(is_near).collect()
 }
