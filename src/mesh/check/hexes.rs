@@ -122,7 +122,8 @@ impl Boundary {
     }
 }
 
-/// The nodes that lie inside an edge or a face of a boundary of which these are all faces, or some, in no order.
+/// The nodes that lie inside an edge or a face of a boundary of which these are all faces, or some, in no order. All coordinates
+/// are finite.
 ///
 /// # Errors
 /// If the monitor stops it.
