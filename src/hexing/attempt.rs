@@ -393,7 +393,7 @@ mod tests {
 
     #[test]
     fn a_mesh_that_is_far_too_far_waits_unless_a_distance_is_asked_for() {
-        let (solid, _) = house(0.54);
+        let (solid, _) = house(0.56);
         let waits = |max_distance: Option<f64>| {
             let hearing = Hearing::default();
             let (report, meshed, failures) = made(&solid, 0.24, max_distance, &hearing);
@@ -440,7 +440,7 @@ mod tests {
     fn what_is_hardly_too_far_is_not_missed_where_nobody_asked() {
         let edge_length = 0.3;
         let near = Taste::of(&house(0.0).0).near * edge_length;
-        let [hardly, clearly] = [0.55, 0.73].map(|aside| fitted_with(edge_length, aside, None));
+        let [hardly, clearly] = [0.55, 0.68].map(|aside| fitted_with(edge_length, aside, None));
         assert!(near < hardly.distance && hardly.distance < TOO_FAR * near && hardly.failures == 0);
         assert!(clearly.distance > TOO_FAR * near && clearly.failures > 0);
     }
@@ -457,7 +457,7 @@ mod tests {
                 max_distance,
                 ..HexingOptions::default()
             };
-            let (.., failures) = first_attempt(&house(0.73).0, &options, &Silent);
+            let (.., failures) = first_attempt(&house(0.68).0, &options, &Silent);
             failures.iter().filter(|failure| failure.missed == Missed::Far).count()
         };
         let asked = Some(0.06);

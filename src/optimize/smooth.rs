@@ -20,17 +20,22 @@ struct Course {
     weights: Weights,
     /// The course's target is so much below that of the options.
     below: f64,
+    /// Is its power so high that it is for low cells alone, where that is asked for?
+    of_low: bool,
 }
 
 /// Shape has a share in each course: angles alone would be best with edges of no length. The high powers, which few
 /// cells far above the worst notice, are for the lower ones; the last is for where few cells are smoothed.
 const COURSES: [Course; 5] = [
-    Course { weights: Weights { doublings: 0, mu: 0.0 }, below: 0.0 },
-    Course { weights: Weights { doublings: 1, mu: 0.3 }, below: 0.0 },
-    Course { weights: Weights { doublings: 2, mu: 0.999 }, below: 0.05 },
-    Course { weights: Weights { doublings: 3, mu: 0.99999 }, below: 0.05 },
-    Course { weights: Weights { doublings: 5, mu: 0.9999999999 }, below: 0.1 },
+    Course { weights: Weights { doublings: 0, mu: 0.0 }, below: 0.0, of_low: false },
+    Course { weights: Weights { doublings: 1, mu: 0.3 }, below: 0.0, of_low: false },
+    Course { weights: Weights { doublings: 2, mu: 0.999 }, below: 0.05, of_low: false },
+    Course { weights: Weights { doublings: 3, mu: 0.99999 }, below: 0.05, of_low: true },
+    Course { weights: Weights { doublings: 5, mu: 0.9999999999 }, below: 0.1, of_low: true },
 ];
+
+/// A cell is low, too, if its scaled Jacobian is less than this above the worst.
+const ABOVE_WORST: f64 = 0.1;
 
 /// A course that raises the mean: nearly all angles, in a power so low that all corners count.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,9 +89,11 @@ pub(crate) fn smooth(
     let looked_at = moved.map(|moved| changed(problem, moved, monitor)).transpose()?;
     let mut rounds = Rounds::new(problem, guide, planned, monitor)?;
     rounds.looked_at = looked_at;
-    for Course { weights, below } in courses {
-        let target = options.target - below;
-        rounds.make(weights, target, options.smooth_sweeps)?;
+    for (k, Course { weights, below, of_low }) in courses.enumerate() {
+        let low = if of_low { options.low.max(rounds.worst() + ABOVE_WORST) } else { f64::INFINITY };
+        let target = (options.target - below).min(low);
+        let most = options.first_sweeps.get(k).copied().unwrap_or(usize::MAX);
+        rounds.make(weights, target, options.smooth_sweeps.min(most))?;
         rounds.make(weights, target.min(worst_target(&rounds.jacobians)), options.worst_sweeps)?;
     }
     rounds.end()
@@ -170,10 +177,9 @@ impl<'a> Rounds<'a> {
         self.problem.guarded = self.jacobians.iter().map(|&jacobian| jacobian < GUARDED).collect();
         for round in 0..sweeps {
             monitor.checkpoint(SMOOTHING, (passed + round) as f64 / planned as f64)?;
-            let worst = self.jacobians.iter().copied().fold(f64::INFINITY, f64::min);
             // Nobody looks at who is awake after the last round.
             let asleep = if round + 1 < sweeps { ASLEEP } else { f64::INFINITY };
-            let rules = Rules { guide, weights, eps: 0.0, floor: Some(worst), asleep };
+            let rules = Rules { guide, weights, eps: 0.0, floor: Some(self.worst()), asleep };
             let round =
                 |problem: &mut Problem, awake: &mut [bool]| sweep(problem, rules, &allowed, awake, monitor);
             let (changed, moved) = keep_positive(self.problem, &mut awake, monitor, round)?;
@@ -191,6 +197,11 @@ impl<'a> Rounds<'a> {
             }
         }
         Ok(())
+    }
+
+    /// The least scaled Jacobian.
+    fn worst(&self) -> f64 {
+        self.jacobians.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
     /// The number of rounds made.
@@ -305,6 +316,38 @@ mod tests {
         // Cells on both sides of the node, the rings, and a ring of nodes around.
         assert_eq!(smoothed(true), 2.0 + 1.0 + (RINGS_SINCE + RINGS) as f64);
         assert_eq!(smoothed(false), 19.0);
+    }
+
+    /// Two blocks of eight cells, one leaning and the other leaning far, whose middles may move.
+    #[test]
+    fn high_powers_are_for_low_cells_and_first_courses_are_short_where_that_is_asked_for() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 8 };
+        let block = hex_grid(Aabb { min: Point::ZERO, max: Point::splat(2.0) }, &options).unwrap();
+        let nodes = block.positions.len();
+        let leaning = |shear: f64| {
+            block.positions.iter().map(move |&p| p + Point::X * (shear * p.z * (1.0 + 0.1 * p.x * p.y)))
+        };
+        let positions: Vec<Point> = leaning(0.9).chain(leaning(3.0)).collect();
+        let moved = block.hexes.iter().map(|hex| hex.map(|n| NodeId::new(n.index() + nodes)));
+        let hexes: Vec<[NodeId; 8]> = block.hexes.iter().copied().chain(moved).collect();
+        let middle = block.positions.iter().position(|&p| p == Point::ONE).unwrap();
+        let smoothed = |options: OptimizeOptions| {
+            let mut problem = Problem::new(&positions, &hexes, &|n| n.index() % nodes == middle);
+            let rounds = smooth(&mut problem, &Free, &options, None, &Silent).unwrap();
+            (problem.points[..2].to_vec(), rounds)
+        };
+        let after = |courses: usize, low: f64| {
+            smoothed(OptimizeOptions { courses, low, ..OptimizeOptions::default() }).0
+        };
+        let (before, all, low) = (after(3, 0.5), after(4, f64::INFINITY), after(4, 0.5));
+        assert!(all[0] != before[0] && all[1] != before[1], "all are below the target");
+        assert_eq!((low[0], low[1]), (before[0], all[1]));
+
+        let rounds = |first_sweeps: [usize; 2]| {
+            smoothed(OptimizeOptions { courses: 2, first_sweeps, ..OptimizeOptions::default() }).1
+        };
+        assert!(rounds([usize::MAX; 2]) > 3);
+        assert_eq!(rounds([1, 2]), 3);
     }
 
     /// A long bar whose middle was pushed aside comes back slowly.

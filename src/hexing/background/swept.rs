@@ -1,5 +1,7 @@
 //! The swept background (the paper's §4.2): the quads of the principal face, layer by layer along the direction.
 
+use std::sync::OnceLock;
+
 use super::columns::{Columns, share_an_edge};
 use super::levels::{ONE_STEP, levels};
 use crate::geometry::Point;
@@ -80,6 +82,9 @@ pub struct Sweep {
     /// Of all layers along the direction, ascending.
     heights: Vec<f64>,
     edge_length: f64,
+    /// Which hexes there are, of all quads times all steps, once they were made: those of the same sweep are made for one attempt
+    /// after the other.
+    kept: OnceLock<Vec<u32>>,
 }
 
 impl Sweep {
@@ -111,7 +116,7 @@ impl Sweep {
             }
             face => face?,
         };
-        Ok(Self { face: one_fan_a_point(face), heights, edge_length })
+        Ok(Self { face: one_fan_a_point(face), heights, edge_length, kept: OnceLock::new() })
     }
 
     /// The least scaled Jacobian of the face's quads.
@@ -119,15 +124,15 @@ impl Sweep {
         self.face.mesh.worst
     }
 
-    /// The hexes: each is a quad of the face times a step. Those that are farther outside than two edge lengths are left
-    /// out; all others are there, inside or outside. They are conforming and positive, and a manifold with boundary. Nodes
-    /// and hexes are numbered layer by layer.
+    /// The hexes in and around the `solid` that is swept: each is a quad of the face times a step. Those that are farther outside
+    /// than two edge lengths are left out; all others are there, inside or outside. They are conforming and positive, and
+    /// a manifold with boundary. Nodes and hexes are numbered layer by layer.
     ///
     /// # Errors
     /// If the monitor stops it.
     pub fn mesh(&self, solid: &SolidModel, monitor: &dyn Monitor) -> Result<HexMesh, Cancelled> {
         monitor.checkpoint(SWEEP, 0.0)?;
-        let Self { face, heights, edge_length } = self;
+        let Self { face, heights, edge_length, .. } = self;
         let (points, quads) = (face.mesh.points.len(), face.mesh.quads.len());
         let [u, v, w] = face.axes;
         let position = |n: usize| {
@@ -144,10 +149,14 @@ impl Sweep {
             let centre = hex(k).iter().map(|n| positions[n.index()]).sum::<Point>() / 8.0;
             solid.signed_distance(centre) <= FAR * edge_length
         };
-        let near = parallel::try_collect(quads * (heights.len() - 1), monitor, is_near)?;
-        monitor.checkpoint(SWEEP, 0.8)?;
-        let kept = Columns::new(points, &face.mesh.quads, near).made_manifold(monitor)?;
-        let hexes = kept.into_iter().map(|k| hex(k as usize)).collect();
+        if self.kept.get().is_none() {
+            let near = parallel::try_collect(quads * (heights.len() - 1), monitor, is_near)?;
+            monitor.checkpoint(SWEEP, 0.8)?;
+            let kept = Columns::new(points, &face.mesh.quads, near).made_manifold(monitor)?;
+            self.kept.get_or_init(|| kept);
+        }
+        let kept = self.kept.get().into_iter().flatten();
+        let hexes = kept.map(|&k| hex(k as usize)).collect();
         monitor.checkpoint(SWEEP, 1.0)?;
         Ok(without_unused(HexMesh { positions, hexes, ..HexMesh::default() }))
     }

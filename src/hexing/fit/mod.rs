@@ -99,6 +99,9 @@ const AGAIN: usize = 8;
 /// A scaled Jacobian that no cell loses for the sake of distance, unless another attempt would be made for that.
 pub(super) const GOOD: f64 = 0.45;
 
+/// Cells below this are looked at where the worst are smoothed.
+const LOW: f64 = GOOD + 0.05;
+
 /// How far nodes may be from where they belong for the sake of cells, in edges, if they are not farther already.
 const LEAVE: f64 = 0.15;
 
@@ -133,7 +136,12 @@ impl Default for FitOptions {
     fn default() -> Self {
         Self {
             sweeps: 40,
-            smoothing: OptimizeOptions { smooth_sweeps: 10, ..Default::default() },
+            smoothing: OptimizeOptions {
+                smooth_sweeps: 8,
+                first_sweeps: [4, 6],
+                low: LOW,
+                ..Default::default()
+            },
             max_distance: f64::INFINITY,
             near: f64::INFINITY,
             fair: GOOD,

@@ -15,7 +15,7 @@ use super::super::correspondence::{Anchor, Correspondence, CurveFate, Reason};
 use super::holds::{Hold, Holds};
 use super::rings::widen;
 use super::target::{OnSolid, Target};
-use super::{FITTING, LEAVE};
+use super::{FITTING, LEAVE, LOW};
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::EDGES;
 use crate::mesh::quality::scaled_jacobian;
@@ -56,8 +56,15 @@ const ROUNDS: usize = 12;
 const RINGS: usize = 3;
 
 /// How the cells there are smoothed.
-pub(super) const SMOOTHING: OptimizeOptions =
-    OptimizeOptions { target: 0.65, untangle_sweeps: 0, courses: 5, smooth_sweeps: 6, worst_sweeps: 20 };
+pub(super) const SMOOTHING: OptimizeOptions = OptimizeOptions {
+    target: 0.65,
+    untangle_sweeps: 0,
+    courses: 5,
+    smooth_sweeps: 6,
+    first_sweeps: [6; 2],
+    low: LOW,
+    worst_sweeps: 20,
+};
 
 /// Mends what can be mended; nodes leave where they belong by no more than half of `max_distance`, if they are not farther
 /// already. Returns the number of sweeps.

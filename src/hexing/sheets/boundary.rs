@@ -39,9 +39,15 @@ impl Boundary {
 
     /// The quads with their surfaces, in the order of [`hex_boundary`].
     pub(super) fn in_order(&self) -> Vec<([NodeId; 4], SurfaceId)> {
-        let mut order: Vec<usize> = (0..self.quads.len()).collect();
-        order.sort_unstable_by_key(|&q| self.sides[q]);
-        order.into_iter().map(|q| (self.quads[q], self.surface[q])).collect()
+        self.by_side().into_iter().map(|q| (self.quads[q as usize], self.surface[q as usize])).collect()
+    }
+
+    /// The quads in the order of the sides that they are: those of a hex follow each other.
+    #[inline(never)] // Compiled once for all that call it.
+    pub(super) fn by_side(&self) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..self.quads.len() as u32).collect();
+        order.sort_unstable_by_key(|&q| self.sides[q as usize]);
+        order
     }
 
     /// The hex that has a quad.

@@ -87,10 +87,8 @@ impl<'a> Look<'a> {
     /// The groups in which hexes have two faces that share an edge without a sharp curve.
     pub(super) fn bent_hexes(&self) -> Vec<u32> {
         let boundary = self.boundary;
-        let mut by_side: Vec<u32> = (0..boundary.quads.len() as u32).collect();
-        by_side.sort_unstable_by_key(|&q| boundary.sides[q as usize]);
         let mut bent = Vec::new();
-        for of_hex in by_side.chunk_by(|&p, &q| boundary.hex(p) == boundary.hex(q)) {
+        for of_hex in boundary.by_side().chunk_by(|&p, &q| boundary.hex(p) == boundary.hex(q)) {
             for (i, &p) in of_hex.iter().enumerate() {
                 for &q in of_hex[..i].iter().filter(|&&q| self.group(q) == self.group(p)) {
                     let is_smooth = |ends| self.curve(ends).is_none_or(|curve| self.groups.is_flat(curve));

@@ -43,8 +43,9 @@ pub(super) fn attempt(
     let mut local = Local::around(&next, monitor)?;
     let faces = if next.is_inside { None } else { Some(local.faces(monitor)?) };
     let has_none = |faces: &HexFaces| next.mesh.materials.is_empty() && local.is_inside(faces);
-    let options = smoothing(method, faces.as_ref().is_none_or(has_none));
-    let faces = faces.filter(|_| !next.mesh.has_free_boundary);
+    let has_free_boundary = next.mesh.has_free_boundary;
+    let options = smoothing(method, faces.as_ref().is_none_or(has_none), has_free_boundary);
+    let faces = faces.filter(|_| !has_free_boundary);
     let mut tangled = local.relax(&next, faces, surface, &options, monitor)?;
     local.write_back(&mut next.mesh.positions);
     let mut smoothed = local.hex_ids;
@@ -67,10 +68,12 @@ pub(super) fn attempt(
     Ok(Attempt::Tangled { coarse: coarse_at(&next, &tangled), hexes: tangled.len() })
 }
 
-/// How far to smooth the transition of a method. A pillow that is inside was opened before it was divided, and needs less.
-fn smoothing(method: Method, is_inside: bool) -> OptimizeOptions {
+/// How far to smooth the transition of a method. A pillow that is inside was opened before it was divided, and needs less; so does
+/// what has a free boundary, out of which a core is cut that is smoothed when it is fitted.
+fn smoothing(method: Method, is_inside: bool, has_free_boundary: bool) -> OptimizeOptions {
     let all = OptimizeOptions::default();
     match method {
+        _ if has_free_boundary => OptimizeOptions { courses: 2, smooth_sweeps: 3, ..all },
         Method::One => OptimizeOptions { smooth_sweeps: 2, worst_sweeps: 4, ..all },
         _ if is_inside => OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 4, ..all },
         _ => all,

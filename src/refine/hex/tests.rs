@@ -110,7 +110,7 @@ fn blocks_of_any_small_world_are_halved_up_to_a_free_boundary() {
 type Drops = [[usize; 4]; 4];
 
 /// Refines cubes of stairs that are lower from column to column along both axes. The boundary is free to move, and parts
-/// of it to touch, as they do where what is between a step and its cubes gets thin; nothing else may be wrong.
+/// of it might touch where what is between a step and its cubes gets thin; nothing else may be wrong.
 fn refine_stairs(drops: &Drops, is_wanted: impl Fn(usize) -> bool) -> Vec<Defect> {
     let drop = |x: usize, y: usize| drops[..=x].iter().flat_map(|row| &row[..=y]).sum::<usize>() / 3;
     let (mesh, places) = cubes(4, |[x, y, z]| z + drop(x, y) < 4);
@@ -138,11 +138,10 @@ proptest! {
     }
 }
 
-/// Stairs whose steps touch once they are refined: what is made of such a mesh draws them apart, as solids do (`separate`).
+/// Steps so close to each other that they would touch if what is between them were smoothed in all courses.
 #[test]
-fn parts_of_a_free_boundary_may_touch() {
+fn close_parts_of_a_free_boundary_do_not_touch() {
     let drops = [[0, 1, 1, 0], [1, 0, 1, 0], [1, 1, 1, 0], [1, 1, 0, 0]];
     let wanted = [0, 1, 4, 7, 11, 24, 25, 26, 37, 38, 40, 45, 49, 52, 53, 56];
-    let defects = refine_stairs(&drops, |place| wanted.contains(&place));
-    assert!(defects.len() == 1 && defects.iter().all(is_touch), "{defects:?}");
+    assert_eq!(refine_stairs(&drops, |place| wanted.contains(&place)), []);
 }
