@@ -27,7 +27,7 @@ const SIDES = {
   fandisk: 65,
   mambo_s34: 44,
   part: 73,
-  Angled: 60,
+  Angled: 59,
   nist_ctc_01: 106,
   nist_ftc_11: 96,
   spot: 65,

@@ -39,8 +39,8 @@ impl Taste {
     const DRAWN: Self = Self { good: 0.35, lost: 1.0, near: 0.2, astray: 0.4, shown: 0.5, loss: 0.02 };
 
     /// For free forms: nobody drew their curves, and nothing tells cells where to be poor. Smaller cells take more of the mean
-    /// than what they show of a scan is worth.
-    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, near: 0.5, astray: 0.5, shown: 0.0, loss: 1.0 };
+    /// than what they show of a scan is worth. What is near enough not to be refined (`attempt`) is not astray.
+    const FREE_FORM: Self = Self { good: 0.45, lost: 0.5, near: 0.5, astray: 0.6, shown: 0.0, loss: 1.0 };
 
     /// For this solid.
     pub(super) fn of(solid: &SolidModel) -> Self {

@@ -68,7 +68,7 @@ const RINGS: usize = 1;
 const RINGS_SINCE: usize = 2;
 
 /// Evening out goes on where its last round raised the mean by more than this, so many times.
-const RISING: f64 = 1.5e-4;
+const RISING: f64 = 3e-4;
 const MORE: usize = 2;
 
 /// The worst cells are those below the scaled Jacobian that this share of the cells is below, or this many.
