@@ -23,7 +23,7 @@ const HOPELESS: f64 = 1.4;
 
 /// Unless somebody asked for the distance, smaller cells are tried only where mesh and solid are farther from each other than so
 /// many times what is near: that takes as long again, and brings little where little is missing.
-const TOO_FAR: f64 = 1.2;
+pub(super) const TOO_FAR: f64 = 1.2;
 
 /// A sweep is refined only where they are farther from each other than so many times what is near: the cells that are cut for
 /// that are poorer than those of a grid, and the cells beside them.

@@ -184,6 +184,7 @@ fn cost(report: &AttemptReport, options: &HexingOptions, taste: Taste) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::attempt::TOO_FAR;
     use super::super::core::CoreReport;
     use super::super::report::{Captured, FitCounts, LostFeature, MeshedReport, SheetCounts};
     use super::*;
@@ -319,6 +320,13 @@ mod tests {
         let losing = |lost| attempt(2, lost, 0.0, 0.0, 0.0).features;
         assert!(!bar.is_above(0, None) && bar.is_above(2, None));
         assert!(!bar.is_above(0, losing(4).as_ref()) && bar.is_above(0, losing(6).as_ref()));
+    }
+
+    #[test]
+    fn what_is_near_enough_not_to_be_refined_is_not_astray() {
+        for taste in [Taste::DRAWN, Taste::FREE_FORM] {
+            assert!(taste.astray >= TOO_FAR * taste.near, "{taste:?}");
+        }
     }
 
     /// It is a tenth of an edge beyond astray, which weighs a fifth of the features.

@@ -61,24 +61,28 @@ pub struct OptimizeOptions {
     pub smooth_sweeps: usize,
     /// In the first two courses no more than these: cells that were drawn to a boundary with about such an energy need few.
     pub first_sweeps: [usize; 2],
-    /// The last two courses, whose powers are the highest, move only cells whose scaled Jacobian is below this, or hardly above
-    /// the worst. What others gain by them costs the mean.
+    /// The fourth course and the fifth, whose powers are the highest, move only cells whose scaled Jacobian is below this, or hardly
+    /// above the worst. What others gain by them costs the mean.
     pub low: f64,
     /// Sweeps over the few worst cells alone, after those.
     pub worst_sweeps: usize,
 }
 
+impl OptimizeOptions {
+    pub(crate) const DEFAULT: Self = Self {
+        target: 0.75,
+        untangle_sweeps: 200,
+        courses: 4,
+        smooth_sweeps: 5,
+        first_sweeps: [usize::MAX; 2],
+        low: f64::INFINITY,
+        worst_sweeps: 0,
+    };
+}
+
 impl Default for OptimizeOptions {
     fn default() -> Self {
-        Self {
-            target: 0.75,
-            untangle_sweeps: 200,
-            courses: 4,
-            smooth_sweeps: 5,
-            first_sweeps: [usize::MAX; 2],
-            low: f64::INFINITY,
-            worst_sweeps: 0,
-        }
+        Self::DEFAULT
     }
 }
 

@@ -61,9 +61,9 @@ pub(super) const SMOOTHING: OptimizeOptions = OptimizeOptions {
     untangle_sweeps: 0,
     courses: 5,
     smooth_sweeps: 6,
-    first_sweeps: [6; 2],
     low: LOW,
     worst_sweeps: 20,
+    ..OptimizeOptions::DEFAULT
 };
 
 /// Mends what can be mended; nodes leave where they belong by no more than half of `max_distance`, if they are not farther

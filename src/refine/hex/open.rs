@@ -12,15 +12,8 @@ use crate::{Cancelled, Monitor, Stage};
 const OPENING: Stage = Stage("opening");
 
 /// Every cell is to get better, in shape alone: what the layer is divided into has other worst corners.
-const OPTIONS: OptimizeOptions = OptimizeOptions {
-    target: 1.0,
-    untangle_sweeps: 200,
-    courses: 1,
-    smooth_sweeps: 4,
-    first_sweeps: [4; 2],
-    low: f64::INFINITY,
-    worst_sweeps: 0,
-};
+const OPTIONS: OptimizeOptions =
+    OptimizeOptions { target: 1.0, courses: 1, smooth_sweeps: 4, ..OptimizeOptions::DEFAULT };
 
 /// Moves the layer's nodes, if none of them is on the boundary, and says if that is so. At the boundary layers often stand
 /// between ridges with no room to open, and what they leave to the next stage is then worse.
