@@ -290,7 +290,8 @@ fn distances(
     let quads = quads_of(on);
     let boundary = Quads { positions: &mesh.positions, quads: &quads };
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
-    Distances::with_samples_beyond(limit, boundary, surface, monitor)
+    let nearest = |p: Point| Some(solid.nearest(p).point);
+    Distances::with_samples_beyond(limit, boundary, (surface, &nearest), monitor)
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]

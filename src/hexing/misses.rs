@@ -29,29 +29,29 @@ const AROUND: f64 = 2.5;
 /// points are asked for: so they take little memory, and are walked over.
 #[derive(Default)]
 pub(super) struct FineCells {
-    /// Where shares are counted from, and how many of a unit of length.
+    /// Where shares are counted from, and how many of them a unit of length has.
     origin: Point,
     scale: f64,
-    /// A box around each cell, in shares, rounded outwards.
-    boxes: Vec<[[f32; 3]; 2]>,
-    levels: Vec<u8>,
+    /// A box around each cell, in shares, rounded outwards, and its level.
+    cells: Vec<([[u16; 3]; 2], u8)>,
 }
 
 impl FineCells {
     pub(super) fn of(background: &OctreeMesh) -> Self {
         let OctreeMesh { mesh, level } = background;
         let around = Aabb::around(&mesh.positions);
-        let scale = 1.0 / around.size().max_element();
-        let mut cells = Self { origin: around.min, scale, boxes: Vec::new(), levels: Vec::new() };
-        let fine = (0..level.len()).filter(|&hex| level[hex] > 0);
-        let bounds = |hex: usize| {
+        let scale = f64::from(u16::MAX) / around.size().max_element();
+        let mut fine = Self { origin: around.min, scale, cells: Vec::new() };
+        let is_fine = |hex: &usize| level[*hex] > 0;
+        let cell = |hex: usize| {
             let Aabb { min, max } = Aabb::around(&mesh.hexes[hex].map(|n| mesh.positions[n.index()]));
-            let [min, max] = [min, max].map(|p| cells.share(p).to_array().map(|x| x as f32));
-            [min.map(f32::next_down), max.map(f32::next_up)]
+            let [min, max] = [fine.share(min).floor(), fine.share(max).ceil()];
+            ([min, max].map(|p| p.to_array().map(|x| x as u16)), level[hex])
         };
-        cells.boxes = fine.clone().map(bounds).collect();
-        cells.levels = fine.map(|hex| level[hex]).collect();
-        cells
+        let mut cells = Vec::with_capacity((0..level.len()).filter(is_fine).count());
+        cells.extend((0..level.len()).filter(is_fine).map(cell));
+        fine.cells = cells;
+        fine
     }
 
     fn share(&self, p: Point) -> Point {
@@ -63,7 +63,7 @@ impl FineCells {
         let shares: Vec<Point> = points.iter().map(|&p| self.share(p)).collect();
         let index = BoxIndex::of_points(&shares);
         let mut finest = vec![0; shares.len()];
-        for (&[min, max], &level) in self.boxes.iter().zip(&self.levels) {
+        for &([min, max], level) in &self.cells {
             let [min, max] = [min, max].map(|p| Point::from(p.map(f64::from)));
             index.touching(&Aabb { min, max }).for_each(|p| finest[p] = level.max(finest[p]));
         }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::samples::{Quads, Sampled, Triangles};
 use super::topology::hex_boundary;
 use super::{HexMesh, NodeId};
-use crate::geometry::{CutQuad, NearestFacet, NearestTriangle, Point};
+use crate::geometry::{CutQuad, Point};
 use crate::monitor::Part;
 use crate::{Cancelled, Monitor, Stage, parallel};
 
@@ -52,7 +52,7 @@ impl Distances {
         surface: Triangles<'_>,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        Ok(Self::with_samples_beyond(f64::INFINITY, mesh, surface, monitor)?.0)
+        Self::of_sampled(mesh, surface, monitor)
     }
 
     /// The same, of a mesh with quads at its boundary.
@@ -64,24 +64,32 @@ impl Distances {
         surface: Triangles<'_>,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        Ok(Self::with_samples_beyond(f64::INFINITY, mesh, surface, monitor)?.0)
+        Self::of_sampled(mesh, surface, monitor)
+    }
+
+    fn of_sampled(
+        mesh: impl Sampled,
+        surface: Triangles<'_>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
+        let search = surface.search(monitor)?;
+        let nearest = |p: Point| search.closest_point(p);
+        Ok(Self::with_samples_beyond(f64::INFINITY, mesh, (surface, &nearest), monitor)?.0)
     }
 
     /// The same, with the samples that are more than `limit` from the other surface: those of the mesh, then those of the
-    /// surface.
+    /// surface, of which it is known what is `nearest` to a point.
     pub(crate) fn with_samples_beyond(
         limit: f64,
         mesh: impl Sampled,
-        surface: Triangles<'_>,
+        (surface, nearest): (Triangles<'_>, &(dyn Fn(Point) -> Option<Point> + Sync)),
         monitor: &dyn Monitor,
     ) -> Result<(Self, Vec<Point>), Cancelled> {
         let half = |range| Part { whole: monitor, stage: MEASURING, range };
         monitor.checkpoint(MEASURING, 0.0)?;
         let edge = mesh.mean_side();
-        let (mesh_to_surface, mut beyond) = {
-            let nearest = NearestFacet::within(surface.facets(), monitor)?;
-            Measured::of(mesh, edge, limit, &|p| nearest.closest_point(p), &half([0.0, 0.5]))?.told()
-        };
+        let (mesh_to_surface, mut beyond) =
+            Measured::of(mesh, edge, limit, nearest, &half([0.0, 0.5]))?.told();
         let (surface_to_mesh, of_surface) =
             Measured::from(surface, mesh, edge, limit, &half([0.5, 1.0]))?.told();
         monitor.progress(MEASURING, 1.0);
@@ -141,7 +149,7 @@ pub fn distances_of_hexes(
     surface: Triangles<'_>,
     monitor: &dyn Monitor,
 ) -> Result<Vec<f32>, Cancelled> {
-    let nearest = NearestTriangle::new(surface.facets());
+    let nearest = surface.search(monitor)?;
     let boundary = hex_boundary(&mesh.hexes);
     let distance = |p: Point| nearest.closest_point(p).map_or(f64::NAN, |q| q.distance(p));
     let farthest = |quad: &[NodeId; 4]| {
@@ -210,7 +218,7 @@ impl Measured {
         limit: f64,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let nearest = NearestFacet::within(mesh.facets(), monitor)?;
+        let nearest = mesh.search(monitor)?;
         Self::of(surface, edge, limit, &|p| nearest.closest_point(p), monitor)
     }
 
@@ -351,7 +359,10 @@ mod tests {
         let (mesh, surface) = (corners(0.0), corners(2.0));
         let triangle = |positions| Triangles { positions, triangles: &[[0, 1, 2]] };
         let measured = |limit| {
-            Distances::with_samples_beyond(limit, triangle(&mesh), triangle(&surface), &Silent).unwrap()
+            let surface = triangle(&surface);
+            let search = surface.search(&Silent).unwrap();
+            let nearest = |p: Point| search.closest_point(p);
+            Distances::with_samples_beyond(limit, triangle(&mesh), (surface, &nearest), &Silent).unwrap()
         };
         let (distances, beyond) = measured(1.9);
         assert_eq!(distances, between(&mesh, &surface));

@@ -1,7 +1,7 @@
 //! Surfaces, and points that stand for them where distances are measured.
 
 use super::NodeId;
-use crate::geometry::{CutQuad, Facet, Point};
+use crate::geometry::{CutQuad, Facet, NearestFacet, Point};
 use crate::{Cancelled, Monitor};
 
 /// A surface of triangles.
@@ -38,8 +38,10 @@ const BATCH: usize = 1 << 14;
 
 /// A surface that is sampled, and searched for what is nearest to samples of another one.
 pub(crate) trait Sampled: Copy {
-    type Facet: Facet + Copy + Send + Sync;
-
+    /// A face by its corners' places among the positions.
+    type Places: Facet<Shared = Vec<Point>> + Sync;
+    /// A face by its corners.
+    type Facet: AsRef<[Point]>;
     /// Those of a face.
     type Middles: IntoIterator<Item = Point>;
     /// Those of a face.
@@ -52,13 +54,21 @@ pub(crate) trait Sampled: Copy {
     fn sides(&self) -> impl Iterator<Item = [u32; 2]>;
 
     /// The faces.
+    fn places(&self) -> impl Iterator<Item = Self::Places>;
+
+    /// Them too.
     fn facets(&self) -> impl Iterator<Item = Self::Facet>;
 
     /// The middles of a face, which are sampled however small it is.
-    fn middles(facet: Self::Facet) -> Self::Middles;
+    fn middles(facet: &Self::Facet) -> Self::Middles;
 
     /// The triangles that it may be cut into.
-    fn triangles(facet: Self::Facet) -> Self::Triangles;
+    fn triangles(facet: &Self::Facet) -> Self::Triangles;
+
+    /// Finds the face that is nearest to a point.
+    fn search(&self, monitor: &dyn Monitor) -> Result<NearestFacet<Self::Places>, Cancelled> {
+        NearestFacet::sharing(self.positions().to_vec(), self.places(), monitor)
+    }
 
     /// The mean length of the sides of the faces.
     fn mean_side(&self) -> f64 {
@@ -96,9 +106,9 @@ pub(crate) trait Sampled: Copy {
         let count = self.facets().count() as f64;
         for (k, facet) in self.facets().enumerate() {
             giving.done = SIDES + (1.0 - SIDES) * k as f64 / count;
-            giving.all(Self::middles(facet))?;
-            if longest(facet.corners()) > PIECE * edge {
-                pieces.extend(Self::triangles(facet));
+            giving.all(Self::middles(&facet))?;
+            if longest(facet.as_ref()) > PIECE * edge {
+                pieces.extend(Self::triangles(&facet));
             }
             while let Some(piece) = pieces.pop() {
                 match halved(piece, PIECE * edge) {
@@ -113,7 +123,7 @@ pub(crate) trait Sampled: Copy {
     /// Such that there are not too many samples.
     fn least_edge(&self) -> f64 {
         let around: f64 = self.sides().map(|side| length(self.positions(), side)).sum();
-        let triangles = self.facets().flat_map(Self::triangles);
+        let triangles = self.facets().flat_map(|facet| Self::triangles(&facet));
         let area: f64 = triangles.map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum();
         (around / MOST).max((area / MOST).sqrt())
     }
@@ -155,6 +165,7 @@ fn once(mut sides: Vec<[NodeId; 2]>) -> Vec<[NodeId; 2]> {
 }
 
 impl Sampled for Triangles<'_> {
+    type Places = [u32; 3];
     type Facet = [Point; 3];
     type Middles = [Point; 1];
     type Triangles = [[Point; 3]; 1];
@@ -167,20 +178,25 @@ impl Sampled for Triangles<'_> {
         self.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
     }
 
+    fn places(&self) -> impl Iterator<Item = [u32; 3]> {
+        self.triangles.iter().copied()
+    }
+
     fn facets(&self) -> impl Iterator<Item = [Point; 3]> {
         self.triangles.iter().map(|t| t.map(|n| self.positions[n as usize]))
     }
 
-    fn middles(facet: [Point; 3]) -> [Point; 1] {
-        [centroid(facet)]
+    fn middles(facet: &[Point; 3]) -> [Point; 1] {
+        [centroid(*facet)]
     }
 
-    fn triangles(facet: [Point; 3]) -> [[Point; 3]; 1] {
-        [facet]
+    fn triangles(facet: &[Point; 3]) -> [[Point; 3]; 1] {
+        [*facet]
     }
 }
 
 impl Sampled for Quads<'_> {
+    type Places = [u32; 4];
     type Facet = CutQuad;
     type Middles = [Point; 2];
     type Triangles = [[Point; 3]; 4];
@@ -193,15 +209,19 @@ impl Sampled for Quads<'_> {
         self.quads.iter().flat_map(|quad| (0..4).map(|k| [quad[k].0, quad[(k + 1) % 4].0]))
     }
 
+    fn places(&self) -> impl Iterator<Item = [u32; 4]> {
+        self.quads.iter().map(|quad| quad.map(|n| n.0))
+    }
+
     fn facets(&self) -> impl Iterator<Item = CutQuad> {
         self.quads.iter().map(|quad| CutQuad(quad.map(|n| self.positions[n.index()])))
     }
 
-    fn middles(facet: CutQuad) -> [Point; 2] {
+    fn middles(facet: &CutQuad) -> [Point; 2] {
         facet.middles()
     }
 
-    fn triangles(facet: CutQuad) -> [[Point; 3]; 4] {
+    fn triangles(facet: &CutQuad) -> [[Point; 3]; 4] {
         facet.triangles()
     }
 }

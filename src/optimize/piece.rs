@@ -72,15 +72,17 @@ impl PatchFacet {
 impl Facet for PatchFacet {
     const TOGETHER: usize = 1;
 
-    fn corners(&self) -> &[Point] {
+    type Shared = ();
+
+    fn corners(&self, (): &()) -> impl AsRef<[Point]> {
         match self {
-            Self::Triangle(corners) => corners,
+            Self::Triangle(corners) => &corners[..],
             Self::Quad(quad) => &quad.corners,
         }
     }
 
     #[inline(always)]
-    fn closest_of<S: Simd>(_: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
+    fn closest_of<S: Simd>(_: S, (): &(), facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
         let point = facets[0].facet.closest(p);
         (point.to_array().map(|x| [x; LANES]), [point.distance_squared(p); LANES])
     }

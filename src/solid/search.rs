@@ -4,8 +4,10 @@
 //! vertex that it is on (Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal",
 //! 2005, who prove it right for every closed manifold surface).
 
-use super::shell::{Shell, next, previous, triangle_of};
-use crate::geometry::{Nearest, NearestTriangle, Point, segment_weights, triangle_weights};
+use super::shell::{Shell, Triangles, next, previous, triangle_of};
+use crate::geometry::{
+    Nearest, NearestOfTriangles, NearestTriangle, Point, segment_weights, triangle_weights,
+};
 use crate::{Cancelled, Monitor, parallel};
 
 /// The point of the boundary nearest to another.
@@ -37,7 +39,7 @@ pub struct CurveFoot {
 /// Finds the nearest of the triangles of a shell, or of those of a part of it.
 #[derive(Debug)]
 pub(super) struct TriangleSearch {
-    tree: NearestTriangle,
+    tree: NearestOfTriangles,
 }
 
 impl TriangleSearch {
@@ -47,9 +49,10 @@ impl TriangleSearch {
         parts: impl IntoIterator<Item = &'a [u32]>,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let numbered = |&t: &u32| (t as usize, shell.mesh.at(t as usize));
-        let parts = parts.into_iter().map(|triangles| triangles.iter().map(numbered));
-        Ok(Self { tree: NearestTriangle::of_groups(parts, monitor)? })
+        let Triangles { points, triangles } = &shell.mesh;
+        let numbered = |&t: &u32| (t as usize, triangles[t as usize]);
+        let parts = parts.into_iter().map(|of_part| of_part.iter().map(numbered));
+        Ok(Self { tree: NearestOfTriangles::of_groups(points.clone(), parts, monitor)? })
     }
 
     /// Of all triangles.

@@ -1,5 +1,7 @@
 //! The pieces of surfaces that are searched.
 
+use std::fmt::Debug;
+
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
@@ -13,36 +15,73 @@ pub(crate) trait Facet: Sized {
     /// How many are looked at together: `LANES` at most.
     const TOGETHER: usize;
 
+    /// What all facets of an index share: the points that their corners are among, or nothing.
+    type Shared: Debug;
+
     /// Points whose convex hull it is in.
-    fn corners(&self) -> &[Point];
+    fn corners(&self, shared: &Self::Shared) -> impl AsRef<[Point]>;
 
     /// The points that are closest to `p` of `TOGETHER` facets at most, and how far they are from it, squared. Where there are
     /// fewer the rest say nothing.
-    fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row);
+    fn closest_of<S: Simd>(
+        simd: S,
+        shared: &Self::Shared,
+        facets: &[Numbered<Self>],
+        p: Point,
+    ) -> (Rows, Row);
 }
 
 impl Facet for [Point; 3] {
     const TOGETHER: usize = LANES;
 
-    fn corners(&self) -> &[Point] {
-        self
+    type Shared = ();
+
+    fn corners(&self, (): &()) -> impl AsRef<[Point]> {
+        *self
     }
 
     #[inline(always)]
-    fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
-        let mut four = [&facets[0].facet; LANES];
-        for (lane, numbered) in four.iter_mut().zip(facets) {
-            *lane = &numbered.facet;
-        }
-        let [a, b, c, d] = four;
-        let corners = [
-            Vectors::of(simd, [a[0], b[0], c[0], d[0]]),
-            Vectors::of(simd, [a[1], b[1], c[1], d[1]]),
-            Vectors::of(simd, [a[2], b[2], c[2], d[2]]),
-        ];
-        let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
-        (points.store(), squared.to_array())
+    fn closest_of<S: Simd>(simd: S, (): &(), facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
+        closest_of_four(simd, facets, |triangle, corner| triangle[corner], p)
     }
+}
+
+/// A triangle by the places of its corners among points: a sixth of the memory of the corners themselves.
+impl Facet for [u32; 3] {
+    const TOGETHER: usize = LANES;
+
+    type Shared = Vec<Point>;
+
+    fn corners(&self, points: &Vec<Point>) -> impl AsRef<[Point]> {
+        self.map(|n| points[n as usize])
+    }
+
+    #[inline(always)]
+    fn closest_of<S: Simd>(simd: S, points: &Vec<Point>, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
+        closest_of_four(simd, facets, |triangle, corner| points[triangle[corner] as usize], p)
+    }
+}
+
+/// The points of four triangles at most that are closest to `p`, and how far they are from it, squared.
+#[inline(always)]
+fn closest_of_four<S: Simd, F>(
+    simd: S,
+    facets: &[Numbered<F>],
+    corner: impl Fn(&F, usize) -> Point,
+    p: Point,
+) -> (Rows, Row) {
+    let mut four = [&facets[0].facet; LANES];
+    for (lane, numbered) in four.iter_mut().zip(facets) {
+        *lane = &numbered.facet;
+    }
+    let [a, b, c, d] = four;
+    let corners = [
+        Vectors::of(simd, [corner(a, 0), corner(b, 0), corner(c, 0), corner(d, 0)]),
+        Vectors::of(simd, [corner(a, 1), corner(b, 1), corner(c, 1), corner(d, 1)]),
+        Vectors::of(simd, [corner(a, 2), corner(b, 2), corner(c, 2), corner(d, 2)]),
+    ];
+    let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
+    (points.store(), squared.to_array())
 }
 
 /// A quad that is cut in two along either diagonal. A point is as far from it as from the farther of the two cuts: so it is no
@@ -78,22 +117,37 @@ fn farther(squared: [f64; 4]) -> (usize, f64) {
     (farther, squared[farther])
 }
 
-impl Facet for CutQuad {
+impl AsRef<[Point]> for CutQuad {
+    fn as_ref(&self) -> &[Point] {
+        &self.0
+    }
+}
+
+/// A quad that is cut in two along either diagonal, by the places of its corners among points.
+impl Facet for [u32; 4] {
     const TOGETHER: usize = 1;
 
-    fn corners(&self) -> &[Point] {
-        &self.0
+    type Shared = Vec<Point>;
+
+    fn corners(&self, points: &Vec<Point>) -> impl AsRef<[Point]> {
+        self.map(|n| points[n as usize])
     }
 
     #[inline(always)]
-    fn closest_of<S: Simd>(simd: S, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
-        let [s, t, u, v] = facets[0].facet.triangles();
-        let corners = [0, 1, 2].map(|k| Vectors::of(simd, [s[k], t[k], u[k], v[k]]));
-        let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
-        let (mut points, mut squared) = (points.store(), squared.to_array());
-        let lane;
-        (lane, squared[0]) = farther(squared);
-        points.iter_mut().for_each(|row: &mut Row| row[0] = row[lane]);
-        (points, squared)
+    fn closest_of<S: Simd>(simd: S, points: &Vec<Point>, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
+        closest_of_cut(simd, &CutQuad(facets[0].facet.map(|n| points[n as usize])), p)
     }
+}
+
+/// The point of a quad that is closest to `p`, and how far it is from it, squared, in the first place.
+#[inline(always)]
+fn closest_of_cut<S: Simd>(simd: S, quad: &CutQuad, p: Point) -> (Rows, Row) {
+    let [s, t, u, v] = quad.triangles();
+    let corners = [0, 1, 2].map(|k| Vectors::of(simd, [s[k], t[k], u[k], v[k]]));
+    let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
+    let (mut points, mut squared) = (points.store(), squared.to_array());
+    let lane;
+    (lane, squared[0]) = farther(squared);
+    points.iter_mut().for_each(|row: &mut Row| row[0] = row[lane]);
+    (points, squared)
 }

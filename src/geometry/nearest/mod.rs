@@ -38,10 +38,11 @@ thread_local! {
 /// Finds, among many facets, the one that is nearest to a point: a tree of boxes, eight of which are looked at side by side.
 /// General R-trees keep a heap for each question, and take several times as long; optimisation asks millions.
 #[derive(Debug)]
-pub(crate) struct NearestFacet<F> {
+pub(crate) struct NearestFacet<F: Facet> {
     tree: Tree,
     /// In the order of the tree.
     facets: Vec<Numbered<F>>,
+    shared: F::Shared,
 }
 
 /// What holds facets of any kind.
@@ -62,8 +63,11 @@ struct Tree {
 /// Finds the nearest of many triangles.
 pub(crate) type NearestTriangle = NearestFacet<[Point; 3]>;
 
-/// Finds the nearest of many quads.
-pub(crate) type NearestQuad = NearestFacet<CutQuad>;
+/// The same, of triangles between the same points.
+pub(crate) type NearestOfTriangles = NearestFacet<[u32; 3]>;
+
+/// Finds the nearest of many quads between the same points, each cut along either diagonal ([`CutQuad`]).
+pub(crate) type NearestQuad = NearestFacet<[u32; 4]>;
 
 /// A facet, and its number: its place in the order in which they were given, if that was not told.
 #[derive(Clone, Debug)]
@@ -240,7 +244,7 @@ impl<F: Facet> NearestFacet<F> {
     fn look_at<S: Simd>(&self, simd: S, leaf: u32, p: Point, best: &mut Closest) -> bool {
         let [start, end] = [self.tree.leaves[leaf as usize], self.tree.leaves[leaf as usize + 1]];
         let facets = &self.facets[start as usize..end as usize];
-        let (points, squared) = F::closest_of(simd, facets, p);
+        let (points, squared) = F::closest_of(simd, &self.shared, facets, p);
         let mut is_better = false;
         for (lane, numbered) in facets.iter().enumerate().take(LANES) {
             let (distance, index) = (squared[lane], numbered.index);

@@ -11,7 +11,7 @@ use crate::{Cancelled, Monitor, Silent};
 /// The monitor is asked before more facets than this are split.
 const MANY: usize = 1 << 14;
 
-impl<F: Facet> NearestFacet<F> {
+impl<F: Facet<Shared = ()>> NearestFacet<F> {
     /// An index of facets with finite corners.
     ///
     /// # Panics
@@ -31,9 +31,26 @@ impl<F: Facet> NearestFacet<F> {
         facets: impl IntoIterator<Item = F>,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
+        Self::sharing((), facets, monitor)
+    }
+}
+
+impl<F: Facet> NearestFacet<F> {
+    /// As [`new`](Self::new), of facets that share something.
+    ///
+    /// # Errors
+    /// If the monitor stops it.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub(crate) fn sharing(
+        shared: F::Shared,
+        facets: impl IntoIterator<Item = F>,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let facets: Vec<_> = (0..).zip(facets).map(|(k, facet)| Numbered::new(k, facet)).collect();
         let all = 0..facets.len();
-        Self::packed(facets, &[all], monitor)
+        Self::packed(shared, facets, &[all], monitor)
     }
 
     /// An index of groups of facets, each with its number, which may be searched by themselves too. Numbers ascend in a group.
@@ -44,6 +61,7 @@ impl<F: Facet> NearestFacet<F> {
     /// # Panics
     /// If there are more than 2^31 facets, or none in a group.
     pub(crate) fn of_groups<G: IntoIterator<Item = (usize, F)>>(
+        shared: F::Shared,
         groups: impl IntoIterator<Item = G>,
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
@@ -56,24 +74,25 @@ impl<F: Facet> NearestFacet<F> {
         };
         let places: Vec<_> = groups.into_iter().map(&mut add).collect();
         facets.shrink_to_fit();
-        Self::packed(facets, &places, monitor)
+        Self::packed(shared, facets, &places, monitor)
     }
 
     fn packed(
+        shared: F::Shared,
         mut facets: Vec<Numbered<F>>,
         groups: &[Range<usize>],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         for places in groups {
-            rearrange(&mut facets[places.clone()], monitor)?;
+            rearrange(&shared, &mut facets[places.clone()], monitor)?;
         }
         let shelves = Shelves {
             count: facets.len(),
             together: F::TOGETHER,
-            around: &|places| around(&facets[places]),
+            around: &|places| around(&shared, &facets[places]),
             monitor,
         };
-        Ok(Self { tree: Tree::packed(groups, &shelves)?, facets })
+        Ok(Self { tree: Tree::packed(groups, &shelves)?, facets, shared })
     }
 }
 
@@ -194,8 +213,15 @@ fn sort(facets: &mut [Middle], together: usize, monitor: &dyn Monitor) -> Result
 }
 
 /// Puts facets in the order of the tree without a second array of them: around one circle of places after the other.
-fn rearrange<F: Facet>(facets: &mut [Numbered<F>], monitor: &dyn Monitor) -> Result<(), Cancelled> {
-    let middle = |facet: &F| facet.corners().iter().sum::<Point>() / facet.corners().len() as f64;
+fn rearrange<F: Facet>(
+    shared: &F::Shared,
+    facets: &mut [Numbered<F>],
+    monitor: &dyn Monitor,
+) -> Result<(), Cancelled> {
+    let middle = |facet: &F| {
+        let corners = facet.corners(shared);
+        corners.as_ref().iter().sum::<Point>() / corners.as_ref().len() as f64
+    };
     let at_place = |(index, of): (u32, &Numbered<F>)| Middle { index, at: middle(&of.facet) };
     let mut from: Vec<Middle> = (0..).zip(&*facets).map(at_place).collect();
     sort(&mut from, F::TOGETHER, monitor)?;
@@ -223,10 +249,10 @@ fn full(count: usize, together: usize) -> usize {
 }
 
 /// The box around some facets.
-fn around<F: Facet>(facets: &[Numbered<F>]) -> Aabb {
+fn around<F: Facet>(shared: &F::Shared, facets: &[Numbered<F>]) -> Aabb {
     let mut all = Aabb::EMPTY;
     for numbered in facets {
-        for &corner in numbered.facet.corners() {
+        for &corner in numbered.facet.corners(shared).as_ref() {
             all = all.with(corner);
         }
     }

@@ -28,10 +28,15 @@ fn the_tree_finds_what_a_walk_over_all_finds() {
     }
 }
 
+fn of_quads(quads: &[CutQuad]) -> NearestQuad {
+    let corners = (0..quads.len() as u32).map(|q| [0, 1, 2, 3].map(|k| 4 * q + k));
+    NearestQuad::sharing(quads.iter().flat_map(|quad| quad.0).collect(), corners, &Silent).unwrap()
+}
+
 #[test]
 fn a_quad_is_found_by_the_cut_that_is_farther() {
     let quads: Vec<_> = sheet(9).chunks(2).map(|t| CutQuad([t[0][0], t[0][1], t[1][1], t[0][2]])).collect();
-    let index = NearestQuad::new(quads.iter().copied());
+    let index = of_quads(&quads);
     for k in 0..200 {
         let p =
             Point::new(f64::from(k % 7) / 4.0 - 0.3, f64::from(k % 11) / 7.0 - 0.2, f64::from(k % 5) / 9.0);
@@ -53,7 +58,7 @@ fn a_quad_is_as_far_as_the_farther_cut() {
         let of_cuts = [0, 2].map(|k| f64::min(distances[k], distances[k + 1]));
         assert!(of_cuts.contains(&0.0) && of_cuts.iter().any(|&d| d > 0.2), "{of_cuts:?}");
         assert_eq!(quad.distance_squared(middle).sqrt(), of_cuts[0].max(of_cuts[1]));
-        let index = NearestQuad::new([quad]);
+        let index = of_quads(&[quad]);
         assert_eq!(index.closest_point(middle).unwrap().distance(middle), of_cuts[0].max(of_cuts[1]));
     }
 }
@@ -105,10 +110,12 @@ fn what_is_found_does_not_depend_on_the_searches_before() {
 fn groups_are_searched_by_themselves_and_together() {
     let triangles: Vec<[Point; 3]> = sheet(9).into_iter().chain(sheet(9)).collect();
     let of_group = |g: usize| (0..triangles.len()).filter(move |t| [t % 5, t % 7 + 1, 8][t % 3] == g);
-    let numbered = |t: usize| (t, triangles[t]);
+    let corners = |t: usize| [0, 1, 2].map(|k| 3 * t as u32 + k);
+    let numbered = |t: usize| (t, corners(t));
     let groups: Vec<usize> = (0..9).filter(|&g| of_group(g).next().is_some()).collect();
+    let of_groups = groups.iter().map(|&g| of_group(g).map(numbered));
     let together =
-        NearestTriangle::of_groups(groups.iter().map(|&g| of_group(g).map(numbered)), &Silent).unwrap();
+        NearestOfTriangles::of_groups(triangles.as_flattened().to_vec(), of_groups, &Silent).unwrap();
     let alone = NearestTriangle::new(triangles.iter().copied());
     assert_eq!(groups.len(), 9);
     for k in 0..300 {

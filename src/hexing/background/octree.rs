@@ -101,23 +101,26 @@ fn refined_in(
         let level = vec![0; background.hexes.len()];
         return Ok(OctreeMesh { mesh: background, level });
     }
-    let halved = HexOptions { regions, max_hexes, ..HexOptions::default() };
-    let thirds = HexOptions { method: Method::Three, ..halved.clone() };
     let all_halved = 8 * background.hexes.len();
     let is_in_groups = boundary_level > 0 || blocks.is_some();
-    let halved = if is_in_groups || all_halved as u64 <= max_hexes {
-        halved
-    } else {
+    let mut options = HexOptions { regions, max_hexes, ..HexOptions::default() };
+    if !is_in_groups && all_halved as u64 > max_hexes {
         // Where halves spread over more than what thirds take, they need not be followed further.
-        let fewest = fewest_hexes(HexPlan::fewest_hexes(&background, &thirds, monitor))?;
-        HexOptions { max_hexes: max_hexes.min(fewest), ..halved }
-    };
-    let plan = match HexPlan::of_conforming(&background, blocks.as_ref(), &halved, monitor) {
+        options.method = Method::Three;
+        let fewest = fewest_hexes(HexPlan::fewest_hexes(&background, &options, monitor))?;
+        options = HexOptions { max_hexes: max_hexes.min(fewest), method: Method::default(), ..options };
+    }
+    let plan = match HexPlan::of_conforming(&background, blocks.as_ref(), &options, monitor) {
         Ok(plan) if plan.tree_hexes() < all_halved => plan,
         // All of the boundary is wanted finer, in halves.
         plan if boundary_level > 0 => plan?,
-        plan => of_fewer(plan, HexPlan::of_conforming(&background, None, &thirds, monitor))?,
+        plan => {
+            options = HexOptions { max_hexes, method: Method::Three, ..options };
+            of_fewer(plan, HexPlan::of_conforming(&background, None, &options, monitor))?
+        }
     };
+    // They may be as large as the solid, and are not needed any more.
+    drop(options);
     let refined = plan.carry_out(monitor)?;
     Ok(OctreeMesh { mesh: refined.mesh, level: refined.level })
 }

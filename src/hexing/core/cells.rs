@@ -1,8 +1,8 @@
 //! The cells of a background mesh: what they border on, where they are, how large.
 
 use crate::geometry::Point;
-use crate::mesh::numbering::hex::EDGES;
-use crate::mesh::topology::{Bins, HexFaces, hex_of};
+use crate::mesh::numbering::hex::{EDGES, FACES};
+use crate::mesh::topology::Bins;
 use crate::mesh::{HexMesh, NodeId};
 use crate::{Cancelled, Monitor, parallel};
 
@@ -29,16 +29,11 @@ impl<'a> Cells<'a> {
     /// Looks a conforming mesh over.
     #[inline(never)] // Compiled once for all that call it.
     pub fn of(mesh: &'a HexMesh, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let node_count = mesh.positions.len();
-        let faces = HexFaces::within(node_count, &mesh.hexes, monitor)?;
-        let across = |h: usize, k: usize| {
-            let sides = faces.sides(faces.of_hex[h][k]).iter();
-            sides.map(|&side| hex_of(side).0).find(|&other| other as usize != h).unwrap_or(NONE)
-        };
-        let neighbours =
-            parallel::try_collect(mesh.hexes.len(), monitor, |h| std::array::from_fn(|k| across(h, k)))?;
         let corners = mesh.hexes.as_flattened();
-        let at_node = Bins::monitored(node_count, corners.len(), |k| corners[k].index(), monitor)?;
+        let at_node = Bins::monitored(mesh.positions.len(), corners.len(), |k| corners[k].index(), monitor)?;
+        let neighbours = parallel::try_collect(mesh.hexes.len(), monitor, |h| {
+            FACES.map(|face| across(mesh, &at_node, h, face.map(|k| mesh.hexes[h][usize::from(k)])))
+        })?;
         Ok(Self { mesh, neighbours, at_node })
     }
 
@@ -70,4 +65,24 @@ impl<'a> Cells<'a> {
     pub fn beside(&self, cell: usize) -> impl Iterator<Item = usize> + '_ {
         self.neighbours[cell].iter().filter(|&&other| other != NONE).map(|&other| other as usize)
     }
+}
+
+/// The other cell that has a face of `cell`, or [`NONE`]: of those at both ends of a diagonal the one that has all of it. Looking
+/// there takes no list of all faces, which would be several times as large as what comes of it.
+fn across(mesh: &HexMesh, at_node: &Bins, cell: usize, [a, b, c, d]: [NodeId; 4]) -> u32 {
+    let [at_a, mut at_c] = [a, c].map(|n| at_node.at(n.index()));
+    for &place in at_a {
+        let other = place / 8;
+        while let [first, rest @ ..] = at_c
+            && first / 8 < other
+        {
+            at_c = rest;
+        }
+        let has = |n: NodeId| mesh.hexes[other as usize].contains(&n);
+        if at_c.first().is_some_and(|first| first / 8 == other) && other as usize != cell && has(b) && has(d)
+        {
+            return other;
+        }
+    }
+    NONE
 }

@@ -267,7 +267,7 @@ mod tests {
     fn what_is_told_without_looking_is_what_looking_tells() {
         let (solid, mesh) = house(0.0);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
-        let mut survey = Survey::new(&mesh, &on.faces, &solid, &Silent).unwrap();
+        let mut survey = Survey::new(&mesh, &on.faces, &solid);
         survey.renew(&mesh, &Silent).unwrap();
         let is_outside = |n: NodeId| on.anchors[n.index()] != Anchor::Inside;
         let problem = Problem::new(&mesh.positions, &mesh.hexes, &is_outside);

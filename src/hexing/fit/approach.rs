@@ -61,7 +61,7 @@ impl Fitted {
         let evening = Evening::ALL[0];
         let enough = limit * if max_distance.is_finite() { ENOUGH_ASKED } else { ENOUGH };
         let terms = Terms { leave: 0.5 * max_distance, evening, enough, fair: fair.min(GOOD) };
-        let mut survey = survey.map_or_else(|| Survey::new(mesh, &on.faces, solid, &part(0.0, ROOM)), Ok)?;
+        let mut survey = survey.unwrap_or_else(|| Survey::new(mesh, &on.faces, solid));
         let mut came = course(mesh, on, &self.holds, (&mut survey, &self.far), terms, &part(0.0, ROOM))?;
         let mut sweeps = self.report.sweeps + came.sweeps;
         let mut in_vain = 0;

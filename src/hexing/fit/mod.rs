@@ -211,7 +211,7 @@ pub fn fit<'a>(
     if report.inverted.is_empty() {
         let softened = soften(mesh, on, &mut holds, solid, options.max_distance, &part(SOFTEN, EVEN))?;
         let part = part(EVEN, APPROACH);
-        let seen = survey.insert(Survey::new(mesh, &on.faces, solid, &part)?);
+        let seen = survey.insert(Survey::new(mesh, &on.faces, solid));
         let came = even_and_near(mesh, on, &holds, seen, options.max_distance, &part)?;
         report.sweeps += softened + came.sweeps;
         (far, report.apart) = (came.far, came.apart);

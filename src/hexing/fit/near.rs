@@ -337,7 +337,7 @@ mod tests {
         solid: &SolidModel,
         max_distance: f64,
     ) -> Nearness {
-        let mut survey = Survey::new(mesh, &on.faces, solid, &Silent).unwrap();
+        let mut survey = Survey::new(mesh, &on.faces, solid);
         let evening = Evening::ALL[0];
         let terms = Terms { leave: 0.5 * max_distance, evening, enough: 0.0, fair: GOOD };
         near(mesh, on, holds, &mut survey, terms, &Silent).unwrap()
@@ -347,7 +347,7 @@ mod tests {
     fn a_survey_that_is_renewed_is_like_a_new_one() {
         let (solid, mut mesh) = house(0.0);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
-        let mut survey = Survey::new(&mesh, &on.faces, &solid, &Silent).unwrap();
+        let mut survey = Survey::new(&mesh, &on.faces, &solid);
         survey.renew(&mesh, &Silent).unwrap();
         let before = survey.distances.clone();
         let moved = (0..on.anchors.len()).find(|&n| matches!(on.anchors[n], Anchor::Surface(_))).unwrap();

@@ -3,7 +3,7 @@
 //! Both are sampled: the quads at their nodes, the quarters of their sides and the middles of their diagonals, the solid as where
 //! distances are told. Each of its samples belongs to the quad that is nearest to it.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use crate::geometry::{Aabb, CutQuad, NearestQuad, Point};
 use crate::mesh::topology::Bins;
@@ -12,7 +12,7 @@ use crate::solid::{SolidModel, SurfaceId};
 use crate::{Cancelled, Monitor, parallel};
 
 /// Of samples that are in one cube of so many edges the first counts.
-const DENSE: f64 = 0.15;
+const DENSE: f64 = 0.2;
 
 /// How many samples of the solid count at a quad.
 const SAMPLES: usize = 12;
@@ -31,9 +31,10 @@ pub struct Survey<'a> {
     pub(super) solid: &'a SolidModel,
     /// The mean length of the edges of the mesh when it was first looked at.
     pub(super) edge: f64,
-    /// The samples of the solid, and which quad is nearest to each; behind it how far that is, squared.
-    samples: Vec<Point>,
-    nearest: Vec<(u32, f64)>,
+    /// The samples of the solid, from the least corner of its bounds in shares of its diagonal: for their sake no distance has to
+    /// be known to more digits. And which quad is nearest to each.
+    samples: Vec<[f32; 3]>,
+    nearest: Vec<NearestTo>,
     /// A ball around each `BALL` samples, by its middle and radius.
     balls: Vec<(Point, f64)>,
     /// The nodes of the boundary, ascending, where they are, and how far from the solid.
@@ -52,14 +53,7 @@ pub struct Survey<'a> {
 
 impl<'a> Survey<'a> {
     /// One that has not looked yet.
-    pub(super) fn new(
-        mesh: &HexMesh,
-        faces: &[([NodeId; 4], SurfaceId)],
-        solid: &'a SolidModel,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, Cancelled> {
-        let edge = mean_edge(&quads(mesh, faces));
-        let samples = samples(edge, solid, monitor)?;
+    pub(super) fn new(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)], solid: &'a SolidModel) -> Self {
         let mut number = vec![None; mesh.positions.len()];
         faces.iter().for_each(|(quad, _)| quad.iter().for_each(|n| number[n.index()] = Some(0)));
         let mut nodes = Vec::new();
@@ -68,14 +62,12 @@ impl<'a> Survey<'a> {
             nodes.push(NodeId::new(n));
         }
         let of_quad = |n: NodeId| number[n.index()].expect("a node of the boundary");
-        Ok(Self {
+        Self {
             solid,
-            edge,
-            balls: parallel::try_collect(samples.len().div_ceil(BALL), monitor, |k| {
-                ball(&samples[k * BALL..samples.len().min((k + 1) * BALL)])
-            })?,
-            samples,
+            edge: mean_edge(&quads(mesh, faces)),
+            samples: Vec::new(),
             nearest: Vec::new(),
+            balls: Vec::new(),
             places: vec![Point::NAN; nodes.len()],
             of_nodes: Vec::new(),
             nodes,
@@ -83,11 +75,14 @@ impl<'a> Survey<'a> {
             of_mesh: Vec::new(),
             of_solid: Bins::default(),
             distances: Vec::new(),
-        })
+        }
     }
 
     /// Looks at all of the boundary, whose quads are those of before. What was seen of those that are where they were holds.
     pub(super) fn renew(&mut self, mesh: &HexMesh, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        if self.samples.is_empty() {
+            self.sample(monitor)?;
+        }
         let moved_nodes = self.follow(mesh);
         let of_nodes = std::mem::take(&mut self.of_nodes);
         self.of_nodes = parallel::try_collect(self.nodes.len(), monitor, |n| {
@@ -99,10 +94,13 @@ impl<'a> Survey<'a> {
         self.of_mesh = parallel::try_collect(self.quads.len(), monitor, |k| {
             if has_moved[k] { self.apart(k) } else { of_mesh[k] }
         })?;
-        self.nearest = self.nearest_quads(&has_moved, monitor)?;
-        let quad_of = |k: usize| self.nearest[k].0 as usize;
+        let mut nearest = std::mem::take(&mut self.nearest);
+        self.bring_nearest(&mut nearest, &has_moved, monitor)?;
+        self.nearest = nearest;
+        let quad_of = |k: usize| self.nearest[k].quad as usize;
         self.of_solid = Bins::monitored(self.quads.len(), self.samples.len(), quad_of, monitor)?;
-        let distance = |k: u32| self.nearest[k as usize].1.sqrt();
+        let (nearest, unit) = (&self.nearest, self.unit());
+        let distance = |k: u32| nearest[k as usize].at_most(unit).sqrt();
         self.distances.clear();
         for (quad, &of_mesh) in self.of_mesh.iter().enumerate() {
             if quad.is_multiple_of(BATCH) {
@@ -116,6 +114,21 @@ impl<'a> Survey<'a> {
             self.distances.push(of_mesh.max(farthest));
         }
         Ok(())
+    }
+
+    /// Samples the solid. Not before they are looked at: samples are what most of the memory is for.
+    fn sample(&mut self, monitor: &dyn Monitor) -> Result<(), Cancelled> {
+        self.samples = samples(self.edge, self.solid, monitor)?;
+        self.balls = parallel::try_collect(self.samples.len().div_ceil(BALL), monitor, |k| {
+            let range = k * BALL..self.samples.len().min((k + 1) * BALL);
+            ball(&range.map(|k| self.sample_at(k)).collect::<Vec<_>>())
+        })?;
+        Ok(())
+    }
+
+    /// Where a sample is.
+    fn sample_at(&self, k: usize) -> Point {
+        self.solid.bounds().min + Point::from(self.samples[k].map(f64::from)) * self.solid.diagonal()
     }
 
     /// Takes the nodes to where the mesh has them. Which were elsewhere.
@@ -147,47 +160,87 @@ impl<'a> Survey<'a> {
 
     /// The samples of the solid that count at a quad.
     pub(super) fn at(&self, quad: usize) -> Vec<Point> {
-        self.of_solid.at(quad).iter().take(SAMPLES).map(|&k| self.samples[k as usize]).collect()
+        self.of_solid.at(quad).iter().take(SAMPLES).map(|&k| self.sample_at(k as usize)).collect()
+    }
+
+    /// What squares of distances are told as shares of: the square of the solid's diagonal.
+    fn unit(&self) -> f64 {
+        self.solid.diagonal() * self.solid.diagonal()
     }
 
     /// Could some of these quads be nearer to a sample of the ball than what was nearest to it?
-    fn near_balls(&self, quads: &NearestQuad, monitor: &dyn Monitor) -> Result<Vec<bool>, Cancelled> {
+    fn near_balls(
+        &self,
+        nearest: &[NearestTo],
+        quads: &NearestQuad,
+        monitor: &dyn Monitor,
+    ) -> Result<Vec<bool>, Cancelled> {
+        let unit = self.unit();
         parallel::try_collect(self.balls.len(), monitor, |k| {
             let (middle, radius) = self.balls[k];
-            let known = self.nearest.chunks(BALL).nth(k).unwrap_or_default();
-            let reach = radius + known.iter().map(|&(_, squared)| squared).fold(0.0, f64::max).sqrt();
+            let known = nearest.chunks(BALL).nth(k).unwrap_or_default();
+            let reach = radius + known.iter().map(|near| near.at_most(unit)).fold(0.0, f64::max).sqrt();
             quads.nearest_within(middle, reach * reach * (1.0 + ROUNDING)).is_some()
         })
     }
 
-    /// What is nearest to each sample. Where that has not moved, only what has can be nearer.
-    fn nearest_quads(&self, has_moved: &[bool], monitor: &dyn Monitor) -> Result<Vec<(u32, f64)>, Cancelled> {
+    /// Brings up to date what is nearest to each sample. Where that has not moved, only what has can be nearer.
+    fn bring_nearest(
+        &self,
+        nearest: &mut Vec<NearestTo>,
+        has_moved: &[bool],
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
         let mut moved: Vec<u32> =
             (0u32..).zip(has_moved).filter_map(|(q, &moved)| moved.then_some(q)).collect();
         // Where most has moved a tree of that alone is hardly smaller than one of all.
-        let is_known = !self.nearest.is_empty() && 2 * moved.len() <= has_moved.len();
+        let is_known = !nearest.is_empty() && 2 * moved.len() <= has_moved.len();
         if !is_known {
             moved.clear();
         }
-        let patch = |quad: u32| CutQuad(self.quad(quad as usize));
-        let of_moved = NearestQuad::within(moved.iter().map(|&quad| patch(quad)), monitor)?;
-        let of_all = NearestQuad::within((0..has_moved.len() as u32).map(patch), monitor)?;
-        let is_near = self.near_balls(&of_moved, monitor)?;
-        parallel::try_collect(self.samples.len(), monitor, |k| {
-            let p = self.samples[k];
-            let known = self.nearest.get(k).filter(|(quad, _)| is_known && !has_moved[*quad as usize]);
-            let Some(&(quad, squared)) = known else {
+        let of_all = NearestQuad::sharing(self.places.clone(), self.quads.iter().copied(), monitor)?;
+        let moved_quads = moved.iter().map(|&quad| self.quads[quad as usize]);
+        let of_moved = NearestQuad::sharing(self.places.clone(), moved_quads, monitor)?;
+        let is_near = self.near_balls(nearest, &of_moved, monitor)?;
+        let unit = self.unit();
+        nearest.resize(self.samples.len(), NearestTo { quad: 0, share: f32::INFINITY });
+        parallel::try_for_each_mut(nearest, monitor, |k, near| {
+            let p = self.sample_at(k);
+            let quad = near.quad as usize;
+            if !is_known || has_moved[quad] {
                 let found = of_all.nearest(p).expect("a mesh has a boundary");
-                return (found.facet as u32, found.point.distance_squared(p));
-            };
-            if !is_near[k / BALL] {
-                return (quad, squared);
+                *near = NearestTo::new(found.facet, found.point.distance_squared(p), unit);
+            } else if is_near[k / BALL]
+                && let Some(found) = of_moved.nearest_within(p, near.at_most(unit))
+            {
+                let (other, squared) = (moved[found.facet] as usize, found.point.distance_squared(p));
+                let known = CutQuad(self.quad(quad)).distance_squared(p);
+                if squared < known || squared == known && other < quad {
+                    *near = NearestTo::new(other, squared, unit);
+                }
             }
-            let nearer = of_moved
-                .nearest_within(p, squared)
-                .map(|found| (moved[found.facet], found.point.distance_squared(p)));
-            nearer.filter(|&(other, nearer)| nearer < squared || other < quad).unwrap_or((quad, squared))
         })
+    }
+}
+
+/// What is nearest to a sample. There are many of these.
+#[derive(Clone, Copy, Debug)]
+struct NearestTo {
+    quad: u32,
+    /// How far it is, squared, as a share of a unit, rounded up.
+    share: f32,
+}
+
+impl NearestTo {
+    fn new(quad: usize, squared: f64, unit: f64) -> Self {
+        let share = (squared / unit) as f32;
+        let is_less = f64::from(share) * unit < squared;
+        Self { quad: quad as u32, share: if is_less { share.next_up() } else { share } }
+    }
+
+    /// How far it is, squared, or hardly more.
+    fn at_most(self, unit: f64) -> f64 {
+        f64::from(self.share) * unit
     }
 }
 
@@ -198,17 +251,27 @@ fn ball(points: &[Point]) -> (Point, f64) {
     (middle, squared.sqrt())
 }
 
-/// Samples of a solid for a mesh with edges of this mean length: those by which distances are told, but where they are dense
+/// Samples of a solid, as a survey has them, for a mesh with edges of this mean length: those by which distances are told, but where they are dense
 /// one for those around.
-fn samples(edge: f64, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<Point>, Cancelled> {
+fn samples(edge: f64, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<[f32; 3]>, Cancelled> {
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
-    let (origin, size) = (solid.bounds().min, DENSE * edge);
-    let cube = |p: Point| ((p - origin) / size).to_array().map(|x| x as i32);
-    let mut taken = HashSet::new();
+    let (origin, diagonal, size) = (solid.bounds().min, solid.diagonal(), DENSE * edge);
+    // Of each block of four by four by four cubes those that have a sample.
+    let mut taken: HashMap<[u32; 3], u64> = HashMap::new();
+    let mut is_first = |p: Point| {
+        let cube = ((p - origin) / size).to_array().map(|x| x as u32);
+        let [x, y, z] = cube.map(|x| x % 4);
+        let (of_block, bit) = (taken.entry(cube.map(|x| x / 4)).or_default(), 1 << (16 * z + 4 * y + x));
+        let is_first = *of_block & bit == 0;
+        *of_block |= bit;
+        is_first
+    };
     let mut sparse = Vec::new();
     surface.sample(edge, monitor, &mut |batch, _| {
-        sparse.extend(batch.iter().filter(|&&p| taken.insert(cube(p))));
+        let first = batch.iter().filter(|&&p| is_first(p));
+        sparse.extend(first.map(|&p| ((p - origin) / diagonal).to_array().map(|x| x as f32)));
     })?;
+    sparse.shrink_to_fit();
     Ok(sparse)
 }
 

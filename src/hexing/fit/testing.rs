@@ -48,7 +48,7 @@ pub(super) fn held(on: &Correspondence) -> Vec<Hold> {
 
 /// How far mesh and solid are from each other.
 pub(super) fn farthest(mesh: &HexMesh, on: &Correspondence, solid: &SolidModel) -> f64 {
-    let mut survey = Survey::new(mesh, &on.faces, solid, &Silent).unwrap();
+    let mut survey = Survey::new(mesh, &on.faces, solid);
     survey.renew(mesh, &Silent).unwrap();
     survey.distances.iter().copied().fold(0.0, f64::max)
 }

@@ -84,6 +84,9 @@ fn insert(
 ) -> Result<SheetReport, Cancelled> {
     let mut report = SheetReport { groups, ..SheetReport::default() };
     report.insert(mesh, on, monitor)?;
+    // The fit keeps them for long, and adds nothing.
+    mesh.positions.shrink_to_fit();
+    mesh.hexes.shrink_to_fit();
     Ok(report)
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::local::Local;
+use super::local::{Local, relax_freely};
 use super::options::{HexRefineError, Method};
 use super::poor::mend_poor;
 use super::stage::{StageError, StageMesh, StageResult, opened_stage};
@@ -40,15 +40,19 @@ pub(super) fn attempt(
     if next.layer_nodes.is_empty() {
         return Ok(Attempt::Made(Box::new(next)));
     }
-    let mut local = Local::around(&next, monitor)?;
-    let faces = if next.is_inside { None } else { Some(local.faces(monitor)?) };
-    let has_none = |faces: &HexFaces| next.mesh.materials.is_empty() && local.is_inside(faces);
-    let has_free_boundary = next.mesh.has_free_boundary;
-    let options = smoothing(method, faces.as_ref().is_none_or(has_none), has_free_boundary);
-    let faces = faces.filter(|_| !has_free_boundary);
-    let mut tangled = local.relax(&next, faces, surface, &options, monitor)?;
-    local.write_back(&mut next.mesh.positions);
-    let mut smoothed = local.hex_ids;
+    let (mut tangled, mut smoothed) = if next.mesh.has_free_boundary {
+        // Out of it a core is cut that is smoothed when it is fitted.
+        let options = OptimizeOptions { courses: 2, smooth_sweeps: 3, ..OptimizeOptions::default() };
+        relax_freely(&mut next, &options, monitor)?
+    } else {
+        let mut local = Local::around(&next, monitor)?;
+        let faces = if next.is_inside { None } else { Some(local.faces(monitor)?) };
+        let has_none = |faces: &HexFaces| next.mesh.materials.is_empty() && local.is_inside(faces);
+        let options = smoothing(method, faces.as_ref().is_none_or(has_none));
+        let tangled = local.relax(&next, faces, surface, &options, monitor)?;
+        local.write_back(&mut next.mesh.positions);
+        (tangled, local.hex_ids)
+    };
     for rings in WIDER {
         if tangled.is_empty() {
             break;
@@ -68,12 +72,10 @@ pub(super) fn attempt(
     Ok(Attempt::Tangled { coarse: coarse_at(&next, &tangled), hexes: tangled.len() })
 }
 
-/// How far to smooth the transition of a method. A pillow that is inside was opened before it was divided, and needs less; so does
-/// what has a free boundary, out of which a core is cut that is smoothed when it is fitted.
-fn smoothing(method: Method, is_inside: bool, has_free_boundary: bool) -> OptimizeOptions {
+/// How far to smooth the transition of a method. A pillow that is inside was opened before it was divided, and needs less.
+fn smoothing(method: Method, is_inside: bool) -> OptimizeOptions {
     let all = OptimizeOptions::default();
     match method {
-        _ if has_free_boundary => OptimizeOptions { courses: 2, smooth_sweeps: 3, ..all },
         Method::One => OptimizeOptions { smooth_sweeps: 2, worst_sweeps: 4, ..all },
         _ if is_inside => OptimizeOptions { smooth_sweeps: 1, worst_sweeps: 4, ..all },
         _ => all,

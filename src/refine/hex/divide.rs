@@ -158,7 +158,9 @@ fn place(
     monitor: &dyn Monitor,
 ) -> Result<(), Cancelled> {
     let first_node = nodes_of[0];
-    positions.resize(nodes_of[hexes.len()] as usize, Point::ZERO);
+    let count = nodes_of[hexes.len()] as usize;
+    positions.reserve_exact(count - positions.len());
+    positions.resize(count, Point::ZERO);
     let (old, new) = positions.split_at_mut(first_node as usize);
     let mut blocks = cut(new, block_ends(nodes_of, first_node));
     parallel::try_for_each_mut(&mut blocks, monitor, |k, points| {

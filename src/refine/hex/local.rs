@@ -32,9 +32,7 @@ pub(super) struct Local {
 impl Local {
     /// The hexes at the nodes of a stage's layer, which may move, and those that came from the same hexes.
     pub(super) fn around(stage: &StageResult, monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let mut moves = vec![false; stage.mesh.positions.len()];
-        stage.layer_nodes.iter().for_each(|n| moves[n.index()] = true);
-        Self::of_movable(stage, &moves, monitor)
+        Self::of_movable(stage, &is_of_layer(stage), monitor)
     }
 
     /// The hexes at nodes up to `rings` of hexes away from those of `some`, which may move; where the surface is curved only
@@ -52,14 +50,8 @@ impl Local {
     }
 
     fn of_movable(stage: &StageResult, moves: &[bool], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let StageResult { mesh, from, .. } = stage;
-        let is_near = |h: usize| mesh.hexes[h].iter().any(|n| moves[n.index()]);
-        let near = parallel::try_filter(mesh.hexes.len(), monitor, is_near)?;
-        // All that is left of a hex which lost room to the layer is to be positive, and not at its nodes alone.
-        let mut has_near = vec![false; from.iter().max().map_or(0, |&most| most as usize + 1)];
-        near.iter().for_each(|&h| has_near[from[h as usize] as usize] = true);
-        let hex_ids = parallel::try_filter(mesh.hexes.len(), monitor, |h| has_near[from[h] as usize])?;
-        Self::of_hexes(&mesh.positions, |h| mesh.hexes[h], hex_ids, moves, monitor)
+        let mesh = &stage.mesh;
+        Self::of_hexes(&mesh.positions, |h| mesh.hexes[h], of_same(stage, moves, monitor)?, moves, monitor)
     }
 
     /// Those of `count` hexes that are at the nodes that move.
@@ -70,18 +62,17 @@ impl Local {
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let is_near = |h: usize| hex(h).iter().any(|n| moves[n.index()]);
-        let hex_ids = parallel::try_filter(count, monitor, is_near)?;
+        let hex_ids = parallel::try_filter(count, monitor, is_near)?.into_iter().map(HexId).collect();
         Self::of_hexes(positions, hex, hex_ids, moves, monitor)
     }
 
     fn of_hexes(
         positions: &[Point],
         hex: impl Fn(usize) -> [NodeId; 8] + Sync,
-        hex_ids: Vec<u32>,
+        hex_ids: Vec<HexId>,
         moves: &[bool],
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let hex_ids: Vec<HexId> = hex_ids.into_iter().map(HexId).collect();
         let nodes_of = |k: usize| hex(hex_ids[k].index()).map(NodeId::index);
         let has = parallel::flags(positions.len(), hex_ids.len(), nodes_of);
         let nodes: Vec<NodeId> =
@@ -215,6 +206,40 @@ impl Local {
             positions[node.index()] = *point;
         }
     }
+}
+
+/// Untangles and smooths what is around the layer of a stage whose nodes are kept nowhere: so nothing has to be taken out of its
+/// mesh. The hexes that stay inverted, and those that were looked at.
+pub(super) fn relax_freely(
+    stage: &mut StageResult,
+    options: &OptimizeOptions,
+    monitor: &dyn Monitor,
+) -> Result<(Vec<HexId>, Vec<HexId>), Cancelled> {
+    let moves = is_of_layer(stage);
+    let around = of_same(stage, &moves, monitor)?;
+    let StageMesh { positions, hexes, .. } = &mut stage.mesh;
+    let anywhere = Constraints::none(positions.len());
+    let report = optimize(positions, hexes, &moves, &anywhere, options, monitor)?;
+    Ok((report.inverted, around))
+}
+
+/// For each node: is it of the stage's layer?
+fn is_of_layer(stage: &StageResult) -> Vec<bool> {
+    let mut is_of_layer = vec![false; stage.mesh.positions.len()];
+    stage.layer_nodes.iter().for_each(|n| is_of_layer[n.index()] = true);
+    is_of_layer
+}
+
+/// The hexes at nodes that move, and those that came from the same hexes: all that is left of a hex which lost room to the layer
+/// is to be positive, and not at its nodes alone.
+fn of_same(stage: &StageResult, moves: &[bool], monitor: &dyn Monitor) -> Result<Vec<HexId>, Cancelled> {
+    let StageResult { mesh, from, .. } = stage;
+    let is_near = |h: usize| mesh.hexes[h].iter().any(|n| moves[n.index()]);
+    let near = parallel::try_filter(mesh.hexes.len(), monitor, is_near)?;
+    let mut has_near = vec![false; from.iter().max().map_or(0, |&most| most as usize + 1)];
+    near.iter().for_each(|&h| has_near[from[h as usize] as usize] = true);
+    let of_same = parallel::try_filter(mesh.hexes.len(), monitor, |h| has_near[from[h] as usize])?;
+    Ok(of_same.into_iter().map(HexId).collect())
 }
 
 /// The nodes up to `rings` of hexes away from those of some hexes.

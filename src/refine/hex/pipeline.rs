@@ -132,7 +132,7 @@ impl HexPlan<'_> {
         };
         let mut attempt = attempt(mesh, &refined, method, surface, monitor)?;
         if let Attempt::Made(next) = &mut attempt {
-            check_size(self.options, number as u8 + 1, next.mesh.hexes.len() as u64)?;
+            check_size(&self.options, number as u8 + 1, next.mesh.hexes.len() as u64)?;
             number_as_trees(next, mesh, &outline.refined[number], outline.children);
         }
         Ok(Some(attempt))

@@ -32,7 +32,8 @@ pub(super) const INSEPARABLE: &str = "where the interface cannot be separated";
 /// What is refined, what closing the trees has added, and what will come of it.
 #[derive(Debug)]
 pub struct HexPlan<'a> {
-    pub(super) options: &'a HexOptions,
+    /// Without its regions.
+    pub(super) options: HexOptions,
     /// The blocks of the input's hexes, if these stand in blocks.
     pub(super) blocks: Option<&'a HexBlocks>,
     /// See [`StageMesh::has_free_boundary`].
@@ -84,11 +85,7 @@ impl<'a> HexPlan<'a> {
     /// # Errors
     /// If the input does not conform, an option is out of range, there would be too many hexes, or the monitor stops
     /// it.
-    pub fn new(
-        input: &HexMesh,
-        options: &'a HexOptions,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, HexRefineError> {
+    pub fn new(input: &HexMesh, options: &HexOptions, monitor: &dyn Monitor) -> Result<Self, HexRefineError> {
         HexRefinement::new(input, options, monitor)?.decided(monitor)?.plan(monitor)
     }
 
@@ -101,7 +98,7 @@ impl<'a> HexPlan<'a> {
     pub(crate) fn of_conforming(
         input: &'a HexMesh,
         blocks: Option<&'a HexBlocks>,
-        options: &'a HexOptions,
+        options: &HexOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
         if let Some(HexBlocks { block, octant }) = blocks {
@@ -125,7 +122,7 @@ impl<'a> HexPlan<'a> {
     }
 
     /// Nothing to be refined yet.
-    pub(super) fn of_input(options: &'a HexOptions, input: Cow<'a, HexMesh>, decided: Decided) -> Self {
+    pub(super) fn of_input(options: HexOptions, input: Cow<'a, HexMesh>, decided: Decided) -> Self {
         let forecast = HexForecast::new(input.hexes.len(), Vec::new());
         let added = Added { base: decided.base, ..Added::default() };
         Self {
@@ -312,7 +309,7 @@ impl<'a> HexPlan<'a> {
         monitor: &dyn Monitor,
     ) -> Result<(), HexRefineError> {
         let leaves = trees.leaf_count() + (trees.children() - 1) * rest.len();
-        check_size(self.options, 1, leaves as u64)?;
+        check_size(&self.options, 1, leaves as u64)?;
         self.may_grow(trees, (0, rest), "because the interface cannot be grouped two by two")?;
         self.added.base += rest.len();
         trees.split(0, rest, monitor)?;
@@ -355,7 +352,7 @@ impl<'a> HexPlan<'a> {
             heritage = Cow::Owned(heritage.inherited(level, trees.children()));
             hexes += stage.hexes;
             stage.hexes = hexes;
-            check_size(self.options, number as u8 + 1, hexes as u64)?;
+            check_size(&self.options, number as u8 + 1, hexes as u64)?;
             stages.push(stage);
         }
         Ok(Ok(stages))

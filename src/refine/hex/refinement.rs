@@ -40,7 +40,8 @@ const REFINE: Stage = Stage("refine");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct HexRefinement<'a> {
-    options: &'a HexOptions,
+    /// Without its regions, which are in the `field`.
+    options: HexOptions,
     /// Oriented, without unused nodes.
     input: Cow<'a, HexMesh>,
     /// What the options want finer.
@@ -62,11 +63,7 @@ impl<'a> HexRefinement<'a> {
     ///
     /// # Errors
     /// If the input does not conform, an option is out of range, or the monitor stops it.
-    pub fn new(
-        input: &HexMesh,
-        options: &'a HexOptions,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, HexRefineError> {
+    pub fn new(input: &HexMesh, options: &HexOptions, monitor: &dyn Monitor) -> Result<Self, HexRefineError> {
         validate(options)?;
         let (input, turned) = oriented(input, monitor)?;
         Self::of_oriented(Cow::Owned(input), turned, options, monitor)
@@ -79,7 +76,7 @@ impl<'a> HexRefinement<'a> {
     /// If a hex is not positive, an option is out of range, or the monitor stops it.
     pub(super) fn of_conforming(
         input: &'a HexMesh,
-        options: &'a HexOptions,
+        options: &HexOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
         validate(options)?;
@@ -90,13 +87,14 @@ impl<'a> HexRefinement<'a> {
     fn of_oriented(
         input: Cow<'a, HexMesh>,
         turned: usize,
-        options: &'a HexOptions,
+        options: &HexOptions,
         monitor: &dyn Monitor,
     ) -> Result<Self, HexRefineError> {
         let &HexOptions { edge_length, gradation, ref regions, .. } = options;
         let sizes = SizeOptions { edge_length, curvature: None, gradation, regions };
         let field = SizeField::of_hexes(&input, sizes)?;
         let (extent, longest) = (Extent::of(&input.positions), longest_edge_of(&input, monitor)?);
+        let options = HexOptions { regions: Vec::new(), ..*options };
         Ok(Self { options, input, field, trees: None, capped: 0, turned, base: 0, extent, longest })
     }
 
@@ -129,26 +127,27 @@ impl<'a> HexRefinement<'a> {
         targets: Option<&[f64]>,
         monitor: &dyn Monitor,
     ) -> Result<bool, HexRefineError> {
-        let (options, (number, count)) = (self.options, self.last());
+        let HexOptions { method, max_levels, .. } = self.options;
+        let (number, count) = self.last();
         if let Some(targets) = targets {
             validate_targets(targets, count)?;
         }
-        monitor.checkpoint(REFINE, f64::from(number) / f64::from(options.max_levels.max(number).max(1)))?;
+        monitor.checkpoint(REFINE, f64::from(number) / f64::from(max_levels.max(number).max(1)))?;
         let mut marked = self.wanted(targets, monitor)?;
         if marked.is_empty() {
             return Ok(false);
         }
-        if number >= options.max_levels {
+        if number >= max_levels {
             self.capped = marked.len();
             return Ok(false);
         }
-        if number == 0 && matches!(options.method, Method::One | Method::Two) {
+        if number == 0 && matches!(method, Method::One | Method::Two) {
             self.base = count - marked.len();
             self.may_refine_all(&marked)?;
             marked = (0..count as u32).collect();
         }
         self.may_divide(&marked, monitor)?;
-        let is_in_thirds = options.method == Method::Three;
+        let is_in_thirds = method == Method::Three;
         let mut trees = match self.trees.take() {
             Some(trees) => trees,
             None if is_in_thirds => Trees::thirds(&self.input),
@@ -162,8 +161,8 @@ impl<'a> HexRefinement<'a> {
     /// Refuses to divide the marked elements of the deepest level, and those of their descendants that are sure to be wanted
     /// finer too, beyond the limit of hexes or the digits of coordinates.
     fn may_divide(&mut self, marked: &[u32], monitor: &dyn Monitor) -> Result<(), HexRefineError> {
-        let (options, (number, _)) = (self.options, self.last());
-        let parts: u8 = if options.method == Method::Three { 3 } else { 2 };
+        let (number, _) = self.last();
+        let parts: u8 = if self.options.method == Method::Three { 3 } else { 2 };
         let longest = self.longest / f64::from(parts).powi(i32::from(number) + 1);
         if !self.extent.has_digits_for(longest) {
             return Err(HexRefineError::TooFewDigits {
@@ -183,21 +182,22 @@ impl<'a> HexRefinement<'a> {
             });
             made.fold(before, u64::saturating_add)
         };
-        (1..=options.max_levels - number)
-            .try_for_each(|level| check_size(options, number + level, after(level)))
+        (1..=self.options.max_levels - number)
+            .try_for_each(|level| check_size(&self.options, number + level, after(level)))
     }
 
     /// How many levels more each of the marked elements of the deepest level is refined with all its descendants, at least.
     fn sure_levels(&mut self, marked: &[u32], monitor: &dyn Monitor) -> Result<Vec<u8>, HexRefineError> {
-        let (options, (number, _)) = (self.options, self.last());
-        let most = options.max_levels - number;
-        let everywhere = options.levels.unwrap_or(0).saturating_sub(number).clamp(1, most);
+        let HexOptions { method, levels, max_levels, .. } = self.options;
+        let (number, _) = self.last();
+        let most = max_levels - number;
+        let everywhere = levels.unwrap_or(0).saturating_sub(number).clamp(1, most);
         if everywhere == most || self.field.is_idle_from(number + everywhere) {
             return Ok(vec![everywhere; marked.len()]);
         }
         self.make_last(monitor)?;
         let level = self.last_level();
-        let parts = if options.method == Method::Three { 3.0 } else { 2.0 };
+        let parts = if method == Method::Three { 3.0 } else { 2.0 };
         Ok(parallel::try_collect(marked.len(), monitor, |k| {
             let corners = level.corners(&level.elements[marked[k] as usize]);
             everywhere.max(self.field.sure_levels(&corners, number, parts).min(most))

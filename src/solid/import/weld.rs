@@ -75,6 +75,7 @@ fn renumber(soup: &mut Soup, stands_for: &[u32]) {
         }
         *v = new[old];
     }
+    points.shrink_to_fit();
     soup.mesh.points = points;
     for v in soup.vertex_of.iter_mut().filter(|v| **v != NONE) {
         *v = new[stands_for[*v as usize] as usize];

@@ -35,6 +35,15 @@ pub(super) fn give_back_at_once() {
     }
 }
 
+/// Gives pages back between blocks that are in use, unless they are kept: small arrays that were freed leave many.
+pub(super) fn give_back_what_is_free() {
+    #[cfg(target_env = "gnu")]
+    if !KEEPS_PAGES.load(Relaxed) {
+        // SAFETY: it may be called at any time, by any thread.
+        unsafe { libc::malloc_trim(0) };
+    }
+}
+
 /// Is a block from the allocator that keeps pages?
 fn is_kept(block: *mut u8) -> bool {
     // SAFETY: it looks the address up, whatever is there.

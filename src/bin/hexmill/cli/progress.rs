@@ -7,8 +7,13 @@ use hexmill::{Monitor, Stage};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
+use super::allocator::give_back_what_is_free;
+
 /// Steps of a full bar.
 const STEPS: u64 = 1000;
+
+/// What is free is given back where a stage begins, and at such shares of it.
+const TIDY: f64 = 0.02;
 
 /// Takes the time of each stage, and shows a bar on stderr if that is a terminal.
 pub(crate) struct Progress {
@@ -21,6 +26,8 @@ struct Stages {
     /// The stages so far in order of first appearance, with the time spent in each.
     done: Vec<(&'static str, Duration)>,
     current: Option<(&'static str, Instant)>,
+    /// How far the current one was when memory was given back last.
+    tidied: f64,
 }
 
 /// Seconds spent in a stage.
@@ -41,7 +48,11 @@ impl Progress {
             .expect("the template is valid")
             .progress_chars("=> ");
         let bar = ProgressBar::with_draw_target(Some(STEPS), target).with_style(style);
-        Self { bar, start: Instant::now(), stages: Mutex::new(Stages { done: Vec::new(), current: None }) }
+        Self {
+            bar,
+            start: Instant::now(),
+            stages: Mutex::new(Stages { done: Vec::new(), current: None, tidied: 0.0 }),
+        }
     }
 
     fn stages(&self) -> MutexGuard<'_, Stages> {
@@ -62,6 +73,11 @@ impl Progress {
             stages.close();
             stages.current = Some((name, Instant::now()));
             self.bar.set_prefix(name);
+            stages.tidied = f64::INFINITY;
+        }
+        if (fraction - stages.tidied).abs() >= TIDY {
+            stages.tidied = fraction;
+            give_back_what_is_free();
         }
         drop(stages);
         self.bar.set_position((fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
