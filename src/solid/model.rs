@@ -272,8 +272,14 @@ impl SolidModel {
 
     /// How far `p` is from the boundary; negative inside.
     pub fn signed_distance(&self, p: Point) -> f64 {
-        let found = self.search.nearest(p);
-        self.sides.signed(&self.parts.shell, &self.normals, found.facet, found.point, p)
+        self.signed_nearest(p).0
+    }
+
+    /// The same, and the point of the boundary nearest to `p`.
+    pub fn signed_nearest(&self, p: Point) -> (f64, Foot) {
+        let foot = self.nearest(p);
+        let Parts { shell, .. } = &self.parts;
+        (self.sides.signed(shell, &self.normals, foot.triangle as usize, foot.point, p), foot)
     }
 
     /// Is `p` inside?

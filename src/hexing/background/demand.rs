@@ -12,7 +12,7 @@
 //! left alone: the core keeps or gives it up as it is.
 
 use super::pieces::pieces;
-use crate::geometry::Point;
+use crate::geometry::{Firsts, Point};
 use crate::mesh::{NodeId, PolygonMesh};
 use crate::sizing::turn_per_length;
 use crate::solid::SolidModel;
@@ -33,6 +33,10 @@ pub(super) struct Demands {
 
 /// The cosine between the normals of two walls that face each other, at most.
 const FACING: f64 = -0.5;
+
+/// Of points that ask for cells of one level those that are the first in a cube of so many of their edges stand for all there:
+/// much farther around them there are cells of that level.
+const APART: f64 = 0.25;
 
 impl Demands {
     /// For each level from 1 to the finest, the points of the boundary around which cells are to be of that level.
@@ -59,8 +63,14 @@ impl Demands {
             level.into_iter().flat_map(move |level| points.clone().map(move |at| (level, at)))
         });
         let mut by_level = vec![Vec::new(); usize::from(self.finest)];
+        let edge = |level: u8| self.edge_length / f64::from(1u32 << level.min(31));
+        let firsts = |level: u8| Firsts::new(solid.bounds().min, APART * edge(level));
+        let mut firsts: Vec<Firsts> = (1..=self.finest).map(firsts).collect();
         for (level, at) in found.into_iter().chain(curves) {
-            by_level[usize::from(level) - 1].push(at);
+            let level = usize::from(level) - 1;
+            if firsts[level].is_first(at) {
+                by_level[level].push(at);
+            }
         }
         Ok(by_level)
     }
@@ -71,9 +81,10 @@ impl Demands {
         let normal = solid.normals()[triangle];
         let across = |side: f64| {
             let probe = at + normal * (self.edge_length * side);
-            let thickness = self.edge_length + solid.signed_distance(probe) * side;
-            let faces = || solid.nearest(probe).normal.dot(normal) < FACING;
-            if thickness < 1.99 * self.edge_length && faces() { 0.5 * thickness } else { f64::INFINITY }
+            let (distance, foot) = solid.signed_nearest(probe);
+            let thickness = self.edge_length + distance * side;
+            let faces = foot.normal.dot(normal) < FACING;
+            if thickness < 1.99 * self.edge_length && faces { 0.5 * thickness } else { f64::INFINITY }
         };
         across(1.0).min(across(-1.0))
     }

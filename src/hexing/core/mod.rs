@@ -148,8 +148,8 @@ pub fn core(
     let far = if options.energy == Energy::Paper { f64::INFINITY } else { FAR };
     let mut distances = Distances::of(&cells, |p| solid.signed_distance(p), far, monitor)?;
     let near = |p: Point| {
-        let foot = solid.nearest(p);
-        Near { signed: solid.signed_distance(p), foot: foot.point, normal: foot.normal }
+        let (signed, foot) = solid.signed_nearest(p);
+        Near { signed, foot: foot.point, normal: foot.normal }
     };
     let thin = if options.keep_thin { keep_thin(&cells, &mut distances, near, monitor)? } else { 0 };
     let depth = distances.depth();

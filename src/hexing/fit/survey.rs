@@ -3,9 +3,7 @@
 //! Both are sampled: the quads at their nodes, the quarters of their sides and the middles of their diagonals, the solid as where
 //! distances are told. Each of its samples belongs to the quad that is nearest to it.
 
-use std::collections::HashMap;
-
-use crate::geometry::{Aabb, CutQuad, NearestQuad, Point};
+use crate::geometry::{Aabb, CutQuad, Firsts, NearestQuad, Point};
 use crate::mesh::topology::Bins;
 use crate::mesh::{HexMesh, NodeId, Sampled, Triangles};
 use crate::solid::{SolidModel, SurfaceId};
@@ -255,20 +253,11 @@ fn ball(points: &[Point]) -> (Point, f64) {
 /// one for those around.
 fn samples(edge: f64, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<[f32; 3]>, Cancelled> {
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
-    let (origin, diagonal, size) = (solid.bounds().min, solid.diagonal(), DENSE * edge);
-    // Of each block of four by four by four cubes those that have a sample.
-    let mut taken: HashMap<[u32; 3], u64> = HashMap::new();
-    let mut is_first = |p: Point| {
-        let cube = ((p - origin) / size).to_array().map(|x| x as u32);
-        let [x, y, z] = cube.map(|x| x % 4);
-        let (of_block, bit) = (taken.entry(cube.map(|x| x / 4)).or_default(), 1 << (16 * z + 4 * y + x));
-        let is_first = *of_block & bit == 0;
-        *of_block |= bit;
-        is_first
-    };
+    let (origin, diagonal) = (solid.bounds().min, solid.diagonal());
+    let mut firsts = Firsts::new(origin, DENSE * edge);
     let mut sparse = Vec::new();
     surface.sample(edge, monitor, &mut |batch, _| {
-        let first = batch.iter().filter(|&&p| is_first(p));
+        let first = batch.iter().filter(|&&p| firsts.is_first(p));
         sparse.extend(first.map(|&p| ((p - origin) / diagonal).to_array().map(|x| x as f32)));
     })?;
     sparse.shrink_to_fit();

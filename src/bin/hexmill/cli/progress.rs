@@ -13,7 +13,7 @@ use super::allocator::give_back_what_is_free;
 const STEPS: u64 = 1000;
 
 /// What is free is given back where a stage begins, and at such shares of it.
-const TIDY: f64 = 0.02;
+const TIDY: f64 = 0.25;
 
 /// Takes the time of each stage, and shows a bar on stderr if that is a terminal.
 pub(crate) struct Progress {
