@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn many_blocks_answer_as_a_walk_over_all_does() {
-        let nearest = NearestTriangle::new(spiral().map(|p| [p; 3]));
+        let nearest = NearestTriangle::of(spiral().map(|p| [p; 3]));
         let points: Vec<Point> = spiral().collect();
         let boxes = BoxIndex::of_points(&points);
         for k in 0..20 {
@@ -91,8 +91,12 @@ mod tests {
                 self.0.fetch_add(1, Ordering::Relaxed) == 3
             }
         }
-        let triangles = || spiral().map(|p| [p; 3]);
-        assert!(NearestTriangle::within(triangles(), &Stops(AtomicUsize::new(0))).is_err());
-        assert!(NearestTriangle::within(triangles(), &Silent).is_ok());
+        let points: Vec<Point> = spiral().collect();
+        let within = |monitor: &dyn Monitor| {
+            let triangles = (0..points.len() as u32).map(|n| [n; 3]);
+            NearestTriangle::sharing(points.clone(), triangles, monitor)
+        };
+        assert!(within(&Stops(AtomicUsize::new(0))).is_err());
+        assert!(within(&Silent).is_ok());
     }
 }

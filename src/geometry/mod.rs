@@ -32,9 +32,7 @@ pub(crate) use firsts::Firsts;
 pub use frame::Frame;
 pub use gjk::{Convex, hull_within};
 pub use hull::{Corners, Hull};
-pub(crate) use nearest::{
-    CutQuad, Facet, Nearest, NearestFacet, NearestOfTriangles, NearestQuad, NearestTriangle, Numbered,
-};
+pub(crate) use nearest::{CutQuad, Facet, Nearest, NearestFacet, NearestQuad, NearestTriangle, Numbered};
 pub use quad_hull::QuadHull;
 pub use solid::Solid;
 pub use triangulate::{area_vector, triangulate};

@@ -115,7 +115,7 @@ impl Piece {
             directions.iter().all(same).then_some(first)
         };
         let constant = first.and_then(agrees);
-        Self { constant, parts: Parts::Straight(NearestTriangle::new(triangles), directions) }
+        Self { constant, parts: Parts::Straight(NearestTriangle::of(triangles), directions) }
     }
 
     /// The normal or direction where `p` is nearest to the piece.

@@ -75,7 +75,7 @@ impl PatchTriangles {
     /// Where two are equally near the first counts.
     fn new(triangles: impl IntoIterator<Item = (u32, [Point; 3])>) -> Self {
         let (patch, triangles): (Vec<u32>, Vec<[Point; 3]>) = triangles.into_iter().unzip();
-        Self { nearest: NearestTriangle::new(triangles), patch }
+        Self { nearest: NearestTriangle::of(triangles), patch }
     }
 
     /// The patch nearest to `p`.

@@ -20,7 +20,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use crate::{Cancelled, Monitor, Silent};
 pub use blocks::{each_block, thread_count, try_each_block};
 use slots::Slots;
-pub use sort::{greatest_first, put_greatest_first, sort};
+pub use sort::{greatest_first, put_greatest_first, put_least_first, sort};
 
 /// What `make` gives for each number below `count`.
 pub fn collect<T: Send>(count: usize, make: impl Fn(usize) -> T + Sync) -> Vec<T> {

@@ -31,6 +31,20 @@ pub fn put_greatest_first<T: Clone>(items: &mut Vec<T>, number: impl Fn(&T) -> f
     *items = greatest_first(items.iter().map(number)).map(|k| items[k].clone()).collect();
 }
 
+/// Sorts numbers that belong to something: the least first, in the order of [`f64::total_cmp`], and of those that are equal that
+/// of what comes first.
+pub fn put_least_first(items: &mut [(f64, u32)]) {
+    const SIGN: u64 = 1 << 63;
+    let ascending = |bits: u64| if bits & SIGN == 0 { bits | SIGN } else { !bits };
+    let bits = |ascending: u64| if ascending & SIGN == 0 { !ascending } else { ascending ^ SIGN };
+    let mut order: Vec<(u64, u32)> =
+        items.iter().map(|&(number, of)| (ascending(number.to_bits()), of)).collect();
+    order.sort_unstable();
+    for (item, (number, of)) in items.iter_mut().zip(order) {
+        *item = (f64::from_bits(bits(number)), of);
+    }
+}
+
 /// Merges the sorted runs of [`FEW`] items, into `other` if `there`, else into `items`. Both hold the runs.
 fn merge_runs<T: Ord + Copy + Send + Sync>(items: &mut [T], other: &mut [T], there: bool) {
     let runs = items.len().div_ceil(FEW);

@@ -254,4 +254,12 @@ fn the_greatest_come_first_and_equal_ones_in_their_order() {
     let mut items: Vec<usize> = (0..numbers.len()).collect();
     put_greatest_first(&mut items, |&k| numbers[k]);
     assert_eq!(items, expected);
+    // Two of each number, the second of them with the lesser owner.
+    let twice = (0..).zip(numbers.into_iter().chain(numbers));
+    let mut owned: Vec<(f64, u32)> = twice.map(|(k, number)| (number, 100 - k)).collect();
+    let mut in_order = owned.clone();
+    in_order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    put_least_first(&mut owned);
+    let exact = |items: &[(f64, u32)]| items.iter().map(|&(x, of)| (x.to_bits(), of)).collect::<Vec<_>>();
+    assert_eq!(exact(&owned), exact(&in_order));
 }

@@ -5,9 +5,7 @@
 //! 2005, who prove it right for every closed manifold surface).
 
 use super::shell::{Shell, Triangles, next, previous, triangle_of};
-use crate::geometry::{
-    Nearest, NearestOfTriangles, NearestTriangle, Point, segment_weights, triangle_weights,
-};
+use crate::geometry::{Nearest, NearestTriangle, Point, segment_weights, triangle_weights};
 use crate::{Cancelled, Monitor, parallel};
 
 /// The point of the boundary nearest to another.
@@ -39,7 +37,7 @@ pub struct CurveFoot {
 /// Finds the nearest of the triangles of a shell, or of those of a part of it.
 #[derive(Debug)]
 pub(super) struct TriangleSearch {
-    tree: NearestOfTriangles,
+    tree: NearestTriangle,
 }
 
 impl TriangleSearch {
@@ -52,7 +50,7 @@ impl TriangleSearch {
         let Triangles { points, triangles } = &shell.mesh;
         let numbered = |&t: &u32| (t as usize, triangles[t as usize]);
         let parts = parts.into_iter().map(|of_part| of_part.iter().map(numbered));
-        Ok(Self { tree: NearestOfTriangles::of_groups(points.clone(), parts, monitor)? })
+        Ok(Self { tree: NearestTriangle::of_groups(points.clone(), parts, monitor)? })
     }
 
     /// Of all triangles.
@@ -83,7 +81,7 @@ impl CurveSearch {
         for pair in points.windows(2) {
             at.push(at[at.len() - 1] + pair[0].distance(pair[1]));
         }
-        Self { tree: NearestTriangle::new(points.windows(2).map(|w| [w[0], w[1], w[1]])), points, at }
+        Self { tree: NearestTriangle::of(points.windows(2).map(|w| [w[0], w[1], w[1]])), points, at }
     }
 
     /// The point so far along the curve from its start; its ends beyond them.

@@ -31,22 +31,7 @@ pub(crate) trait Facet: Sized {
     ) -> (Rows, Row);
 }
 
-impl Facet for [Point; 3] {
-    const TOGETHER: usize = LANES;
-
-    type Shared = ();
-
-    fn corners(&self, (): &()) -> impl AsRef<[Point]> {
-        *self
-    }
-
-    #[inline(always)]
-    fn closest_of<S: Simd>(simd: S, (): &(), facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
-        closest_of_four(simd, facets, |triangle, corner| triangle[corner], p)
-    }
-}
-
-/// A triangle by the places of its corners among points: a sixth of the memory of the corners themselves.
+/// A triangle by the places of its corners among points: a sixth of the memory of these, if triangles share them.
 impl Facet for [u32; 3] {
     const TOGETHER: usize = LANES;
 
@@ -58,30 +43,20 @@ impl Facet for [u32; 3] {
 
     #[inline(always)]
     fn closest_of<S: Simd>(simd: S, points: &Vec<Point>, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
-        closest_of_four(simd, facets, |triangle, corner| points[triangle[corner] as usize], p)
+        let mut four = [&facets[0].facet; LANES];
+        for (lane, numbered) in four.iter_mut().zip(facets) {
+            *lane = &numbered.facet;
+        }
+        let [a, b, c, d] = four;
+        let at = |n: u32| points[n as usize];
+        let corners = [
+            Vectors::of(simd, [at(a[0]), at(b[0]), at(c[0]), at(d[0])]),
+            Vectors::of(simd, [at(a[1]), at(b[1]), at(c[1]), at(d[1])]),
+            Vectors::of(simd, [at(a[2]), at(b[2]), at(c[2]), at(d[2])]),
+        ];
+        let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
+        (points.store(), squared.to_array())
     }
-}
-
-/// The points of four triangles at most that are closest to `p`, and how far they are from it, squared.
-#[inline(always)]
-fn closest_of_four<S: Simd, F>(
-    simd: S,
-    facets: &[Numbered<F>],
-    corner: impl Fn(&F, usize) -> Point,
-    p: Point,
-) -> (Rows, Row) {
-    let mut four = [&facets[0].facet; LANES];
-    for (lane, numbered) in four.iter_mut().zip(facets) {
-        *lane = &numbered.facet;
-    }
-    let [a, b, c, d] = four;
-    let corners = [
-        Vectors::of(simd, [corner(a, 0), corner(b, 0), corner(c, 0), corner(d, 0)]),
-        Vectors::of(simd, [corner(a, 1), corner(b, 1), corner(c, 1), corner(d, 1)]),
-        Vectors::of(simd, [corner(a, 2), corner(b, 2), corner(c, 2), corner(d, 2)]),
-    ];
-    let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
-    (points.store(), squared.to_array())
 }
 
 /// A quad that is cut in two along either diagonal. A point is as far from it as from the farther of the two cuts: so it is no

@@ -60,11 +60,8 @@ struct Tree {
     extent: f64,
 }
 
-/// Finds the nearest of many triangles.
-pub(crate) type NearestTriangle = NearestFacet<[Point; 3]>;
-
-/// The same, of triangles between the same points.
-pub(crate) type NearestOfTriangles = NearestFacet<[u32; 3]>;
+/// Finds the nearest of many triangles between the same points.
+pub(crate) type NearestTriangle = NearestFacet<[u32; 3]>;
 
 /// Finds the nearest of many quads between the same points, each cut along either diagonal ([`CutQuad`]).
 pub(crate) type NearestQuad = NearestFacet<[u32; 4]>;

@@ -5,38 +5,37 @@ use std::ops::Range;
 use super::super::boxes::{Boxes, Cube};
 use super::super::lanes::SINGLES;
 use super::super::{Aabb, Point};
-use super::{Below, Branch, Facet, NearestFacet, Numbered, Part, Tree};
+use super::{Below, Branch, Facet, NearestFacet, NearestTriangle, Numbered, Part, Tree};
 use crate::{Cancelled, Monitor, Silent};
 
 /// The monitor is asked before more facets than this are split.
 const MANY: usize = 1 << 14;
 
 impl<F: Facet<Shared = ()>> NearestFacet<F> {
-    /// An index of facets with finite corners.
+    /// An index of facets with finite corners that share nothing.
     ///
     /// # Panics
     /// If there are more than 2^31 facets.
     pub(crate) fn new(facets: impl IntoIterator<Item = F>) -> Self {
-        Self::within(facets, &Silent).expect("nobody stops it")
+        Self::sharing((), facets, &Silent).expect("nobody stops it")
     }
+}
 
-    /// As [`new`](Self::new), told by a monitor when to stop.
-    ///
-    /// # Errors
-    /// If the monitor stops it.
+impl NearestTriangle {
+    /// An index of triangles with finite corners, each with points of its own.
     ///
     /// # Panics
-    /// As [`new`](Self::new).
-    pub(crate) fn within(
-        facets: impl IntoIterator<Item = F>,
-        monitor: &dyn Monitor,
-    ) -> Result<Self, Cancelled> {
-        Self::sharing((), facets, monitor)
+    /// If they have more than 2^31 points.
+    pub(crate) fn of(triangles: impl IntoIterator<Item = [Point; 3]>) -> Self {
+        let points: Vec<Point> = triangles.into_iter().flatten().collect();
+        let count = i32::try_from(points.len()).expect("no more than 2^31 points") as u32 / 3;
+        let corners = (0..count).map(|t| [0, 1, 2].map(|k| 3 * t + k));
+        Self::sharing(points, corners, &Silent).expect("nobody stops it")
     }
 }
 
 impl<F: Facet> NearestFacet<F> {
-    /// As [`new`](Self::new), of facets that share something.
+    /// As [`new`](Self::new), of facets that share something, unless a monitor stops it.
     ///
     /// # Errors
     /// If the monitor stops it.

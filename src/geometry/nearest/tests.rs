@@ -16,7 +16,7 @@ fn sheet(n: usize) -> Vec<[Point; 3]> {
 #[test]
 fn the_tree_finds_what_a_walk_over_all_finds() {
     let triangles = sheet(9);
-    let index = NearestTriangle::new(triangles.iter().copied());
+    let index = NearestTriangle::of(triangles.iter().copied());
     for k in 0..200 {
         let p =
             Point::new(f64::from(k % 7) / 4.0 - 0.3, f64::from(k % 11) / 7.0 - 0.2, f64::from(k % 5) - 2.0);
@@ -66,7 +66,7 @@ fn a_quad_is_as_far_as_the_farther_cut() {
 #[test]
 fn the_first_of_equal_triangles_is_found() {
     let twice: Vec<[Point; 3]> = sheet(5).into_iter().chain(sheet(5)).collect();
-    let index = NearestTriangle::new(twice.iter().copied());
+    let index = NearestTriangle::of(twice.iter().copied());
     for t in &twice[..50] {
         let found = index.nearest((t[0] + t[1] + t[2]) / 3.0).unwrap();
         assert_eq!(twice[found.facet], *t);
@@ -77,7 +77,7 @@ fn the_first_of_equal_triangles_is_found() {
 #[test]
 fn all_is_full_in_a_tree_but_for_what_is_last() {
     for n in [1, 2, 4, 5, 11, 16, 17, 40] {
-        let tree = NearestTriangle::new(sheet(n));
+        let tree = NearestTriangle::of(sheet(n));
         let (mut left, mut branches) = ((2 * n * n).div_ceil(LANES), 0);
         assert_eq!(tree.tree.leaves.len(), left + 1);
         while left > 1 {
@@ -96,12 +96,12 @@ fn what_is_found_does_not_depend_on_the_searches_before() {
     let points: Vec<Point> = (0..60)
         .map(|k| Point::new(f64::from(k % 10), f64::from(k / 10), f64::from(k % 3) - 1.0) / 9.0)
         .collect();
-    let index = NearestTriangle::new(triangles.iter().copied());
+    let index = NearestTriangle::of(triangles.iter().copied());
     let forward: Vec<_> = points.iter().map(|&p| index.nearest(p)).collect();
     let mut backward: Vec<_> = points.iter().rev().map(|&p| index.nearest(p)).collect();
     backward.reverse();
     assert_eq!(forward, backward);
-    let anew = |p: Point| NearestTriangle::new(triangles.iter().copied()).nearest(p);
+    let anew = |p: Point| NearestTriangle::of(triangles.iter().copied()).nearest(p);
     assert!(points.iter().zip(&forward).all(|(&p, found)| anew(p) == *found));
 }
 
@@ -114,9 +114,8 @@ fn groups_are_searched_by_themselves_and_together() {
     let numbered = |t: usize| (t, corners(t));
     let groups: Vec<usize> = (0..9).filter(|&g| of_group(g).next().is_some()).collect();
     let of_groups = groups.iter().map(|&g| of_group(g).map(numbered));
-    let together =
-        NearestOfTriangles::of_groups(triangles.as_flattened().to_vec(), of_groups, &Silent).unwrap();
-    let alone = NearestTriangle::new(triangles.iter().copied());
+    let together = NearestTriangle::of_groups(triangles.as_flattened().to_vec(), of_groups, &Silent).unwrap();
+    let alone = NearestTriangle::of(triangles.iter().copied());
     assert_eq!(groups.len(), 9);
     for k in 0..300 {
         let p = Point::new(f64::from(k % 7), f64::from(k % 11), f64::from(k % 5) - 2.0) / 6.0;
@@ -125,7 +124,7 @@ fn groups_are_searched_by_themselves_and_together() {
         assert_eq!(together.nearest_within(p, squared), alone.nearest(p), "{p}");
         for (place, &g) in groups.iter().enumerate() {
             let members: Vec<usize> = of_group(g).collect();
-            let found = NearestTriangle::new(members.iter().map(|&t| triangles[t])).nearest(p).unwrap();
+            let found = NearestTriangle::of(members.iter().map(|&t| triangles[t])).nearest(p).unwrap();
             let found = Nearest { facet: members[found.facet], ..found };
             assert_eq!(together.nearest_of(place, p), Some(found), "{p} {g}");
         }
@@ -134,7 +133,7 @@ fn groups_are_searched_by_themselves_and_together() {
 
 #[test]
 fn no_triangles_have_no_nearest_point() {
-    let none = NearestTriangle::new([]);
+    let none = NearestTriangle::of([]);
     assert_eq!(none.closest_point(Point::ZERO), None);
     assert_eq!(none.nearest_within(Point::ZERO, f64::INFINITY), None);
 }
@@ -165,7 +164,7 @@ mod random {
         fn the_closest_point_agrees_with_a_search_of_all(
             triangles in prop::collection::vec(points::<3>(1.0), 1..60), p in point(2.0),
         ) {
-            let found = NearestTriangle::new(triangles.iter().copied()).closest_point(p).unwrap();
+            let found = NearestTriangle::of(triangles.iter().copied()).closest_point(p).unwrap();
             let distances = triangles.iter().map(|t| closest_on_triangle(p, *t).distance(p));
             prop_assert_eq!(found.distance(p), distances.fold(f64::INFINITY, f64::min));
         }
@@ -174,7 +173,7 @@ mod random {
         fn what_is_no_farther_is_found(
             triangles in prop::collection::vec(points::<3>(1.0), 1..60), p in point(2.0),
         ) {
-            let index = NearestTriangle::new(triangles.iter().copied());
+            let index = NearestTriangle::of(triangles.iter().copied());
             let nearest = index.nearest(p);
             let squared = nearest.unwrap().point.distance_squared(p);
             prop_assert_eq!(index.nearest_within(p, squared), nearest);

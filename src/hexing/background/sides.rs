@@ -114,13 +114,13 @@ impl Sides {
         let corners = curves.map(turn).collect();
         let of_side = |side: usize| {
             let triangles = (0..count).filter(|&t| side_of(t) == Some(side));
-            NearestTriangle::new(triangles.map(|t| solid.corners_of(t)))
+            NearestTriangle::of(triangles.map(|t| solid.corners_of(t)))
         };
         let rim = (0..count).filter(|&t| side_of(t).is_none()).map(|t| solid.corners_of(t));
         Ok(Some(Self {
             thickness: 2.0 * solid.volume() / of_sides,
             sides: [0, 1].map(of_side),
-            rim: NearestTriangle::new(rim),
+            rim: NearestTriangle::of(rim),
             corners,
         }))
     }

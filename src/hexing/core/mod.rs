@@ -245,7 +245,7 @@ fn outward_where_smooth<'a>(
     let edges = solid.curves().iter().flat_map(|curve| curve.vertices.windows(2));
     // As triangles without area.
     let edges = edges.map(|ends| [ends[0], ends[1], ends[1]].map(|v| solid.points()[v as usize]));
-    let curves = NearestTriangle::new(edges);
+    let curves = NearestTriangle::of(edges);
     move |cell| {
         let center = cells.barycentre(cell);
         let foot = solid.nearest(center);

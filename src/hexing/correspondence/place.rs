@@ -141,11 +141,11 @@ impl Placer<'_> {
             .map(|node| (self.boundary.points[node as usize].distance_squared(*point), node))
             .filter(|&(_, node)| self.boundary.valence(node) >= arms.len())
             .collect();
-        near.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        parallel::put_least_first(&mut near);
         near.truncate(NEAREST);
         let scores = near.iter().filter_map(|&(_, node)| Some((self.score(stop, node, penalties)?, node)));
         let mut scored: Vec<(f64, u32)> = scores.collect();
-        scored.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        parallel::put_least_first(&mut scored);
         scored.truncate(KEPT);
         scored
     }

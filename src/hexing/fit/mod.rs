@@ -371,7 +371,7 @@ fn off(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], target: &dyn Target)
         let off = OffNode { node: NodeId::new(n), place, distance: foot.point.distance(place) };
         holds[n].is_off().then_some(off)
     });
-    off.sort_unstable_by(|a, b| b.distance.total_cmp(&a.distance).then(a.node.cmp(&b.node)));
+    parallel::put_greatest_first(&mut off, |off| off.distance);
     off
 }
 

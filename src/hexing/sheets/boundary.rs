@@ -45,9 +45,9 @@ impl Boundary {
     /// The quads in the order of the sides that they are: those of a hex follow each other.
     #[inline(never)] // Compiled once for all that call it.
     pub(super) fn by_side(&self) -> Vec<u32> {
-        let mut order: Vec<u32> = (0..self.quads.len() as u32).collect();
-        order.sort_unstable_by_key(|&q| self.sides[q as usize]);
-        order
+        let mut order: Vec<(u64, u32)> = self.sides.iter().map(|&side| side.into()).zip(0..).collect();
+        order.sort_unstable();
+        order.into_iter().map(|(_, q)| q).collect()
     }
 
     /// The hex that has a quad.
