@@ -110,19 +110,13 @@ impl Facet for [u32; 4] {
 
     #[inline(always)]
     fn closest_of<S: Simd>(simd: S, points: &Vec<Point>, facets: &[Numbered<Self>], p: Point) -> (Rows, Row) {
-        closest_of_cut(simd, &CutQuad(facets[0].facet.map(|n| points[n as usize])), p)
+        let [s, t, u, v] = CutQuad(facets[0].facet.map(|n| points[n as usize])).triangles();
+        let corners = [0, 1, 2].map(|k| Vectors::of(simd, [s[k], t[k], u[k], v[k]]));
+        let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
+        let (mut points, mut squared) = (points.store(), squared.to_array());
+        let lane;
+        (lane, squared[0]) = farther(squared);
+        points.iter_mut().for_each(|row: &mut Row| row[0] = row[lane]);
+        (points, squared)
     }
-}
-
-/// The point of a quad that is closest to `p`, and how far it is from it, squared, in the first place.
-#[inline(always)]
-fn closest_of_cut<S: Simd>(simd: S, quad: &CutQuad, p: Point) -> (Rows, Row) {
-    let [s, t, u, v] = quad.triangles();
-    let corners = [0, 1, 2].map(|k| Vectors::of(simd, [s[k], t[k], u[k], v[k]]));
-    let (points, squared) = closest_on_four(simd, Vectors::splat(simd, p.to_array()), corners);
-    let (mut points, mut squared) = (points.store(), squared.to_array());
-    let lane;
-    (lane, squared[0]) = farther(squared);
-    points.iter_mut().for_each(|row: &mut Row| row[0] = row[lane]);
-    (points, squared)
 }

@@ -86,3 +86,35 @@ fn across(mesh: &HexMesh, at_node: &Bins, cell: usize, [a, b, c, d]: [NodeId; 4]
     }
     NONE
 }
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::Silent;
+    use crate::mesh::topology::{HexFaces, hex_of};
+    use crate::mesh::{GridOptions, hex_grid};
+    use crate::refine::hex::{HexOptions, refine_hexes};
+    use crate::sizing::{Region, Shape, Target};
+
+    /// Of a grid that is refined at a corner, with transitions.
+    #[test]
+    fn neighbours_are_those_that_share_faces() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: true, max_hexes: 1000 };
+        let grid = hex_grid(crate::geometry::Aabb { min: Point::ZERO, max: Point::splat(4.0) }, &options);
+        let corner = Shape::Sphere { center: Point::ZERO, radius: 1.0 };
+        let regions = vec![Region { shape: corner, target: Target::Level(2) }];
+        let options = HexOptions { regions, ..HexOptions::default() };
+        let mesh = refine_hexes(&grid.unwrap(), &options, &Silent).unwrap().mesh;
+        let cells = Cells::of(&mesh, &Silent).unwrap();
+        let faces = HexFaces::of(mesh.positions.len(), &mesh.hexes);
+        for cell in 0..cells.len() {
+            let across = faces.of_hex[cell].map(|face| {
+                let others = faces.sides(face).iter().map(|&side| hex_of(side).0);
+                others.filter(|&other| other as usize != cell).collect::<Vec<_>>()
+            });
+            let neighbours = cells.neighbours[cell].map(|other| [other].repeat((other != NONE).into()));
+            assert_eq!(neighbours, across, "{cell}");
+        }
+        assert!(cells.len() > 300, "{}", cells.len());
+    }
+}
