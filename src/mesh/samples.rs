@@ -53,10 +53,10 @@ pub(crate) trait Sampled: Copy {
     /// The two nodes of each side, in the order of the faces.
     fn sides(&self) -> impl Iterator<Item = [u32; 2]>;
 
-    /// The faces.
+    /// The faces by the places of their corners.
     fn places(&self) -> impl Iterator<Item = Self::Places>;
 
-    /// Them too.
+    /// The same by their corners.
     fn facets(&self) -> impl Iterator<Item = Self::Facet>;
 
     /// The middles of a face, which are sampled however small it is.

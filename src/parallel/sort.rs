@@ -18,9 +18,7 @@ pub fn sort<T: Ord + Copy + Send + Sync>(items: &mut [T]) {
 
 /// The places of numbers, the greatest first, in the order of [`f64::total_cmp`]; of those that are equal the first.
 pub fn greatest_first(numbers: impl Iterator<Item = f64>) -> impl Iterator<Item = usize> {
-    // The bits of numbers are in their order, if they are not negative, and else in the opposite one.
-    let descending = |bits: u64| if bits >> 63 == 0 { !bits ^ 1 << 63 } else { bits };
-    let mut order: Vec<(u64, u32)> = numbers.map(|number| descending(number.to_bits())).zip(0..).collect();
+    let mut order: Vec<(u64, u32)> = numbers.map(|number| !ascending(number)).zip(0..).collect();
     order.sort_unstable();
     order.into_iter().map(|(_, k)| k as usize)
 }
@@ -34,15 +32,20 @@ pub fn put_greatest_first<T: Clone>(items: &mut Vec<T>, number: impl Fn(&T) -> f
 /// Sorts numbers that belong to something: the least first, in the order of [`f64::total_cmp`], and of those that are equal that
 /// of what comes first.
 pub fn put_least_first(items: &mut [(f64, u32)]) {
-    const SIGN: u64 = 1 << 63;
-    let ascending = |bits: u64| if bits & SIGN == 0 { bits | SIGN } else { !bits };
-    let bits = |ascending: u64| if ascending & SIGN == 0 { !ascending } else { ascending ^ SIGN };
-    let mut order: Vec<(u64, u32)> =
-        items.iter().map(|&(number, of)| (ascending(number.to_bits()), of)).collect();
+    let mut order: Vec<(u64, u32)> = items.iter().map(|&(number, of)| (ascending(number), of)).collect();
     order.sort_unstable();
-    for (item, (number, of)) in items.iter_mut().zip(order) {
-        *item = (f64::from_bits(bits(number)), of);
+    for (item, (bits, of)) in items.iter_mut().zip(order) {
+        *item = (f64::from_bits(if bits & SIGN == 0 { !bits } else { bits ^ SIGN }), of);
     }
+}
+
+/// The bit that negative numbers have.
+const SIGN: u64 = 1 << 63;
+
+/// Bits in the order of numbers: theirs are so if they are not negative, and else in the opposite one.
+fn ascending(number: f64) -> u64 {
+    let bits = number.to_bits();
+    if bits & SIGN == 0 { bits | SIGN } else { !bits }
 }
 
 /// Merges the sorted runs of [`FEW`] items, into `other` if `there`, else into `items`. Both hold the runs.

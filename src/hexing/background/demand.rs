@@ -114,3 +114,21 @@ fn surface_of(solid: &SolidModel) -> PolygonMesh {
     surface.features.creases = edges.map(|edge| ([NodeId(edge[0]), NodeId(edge[1])], 1.0)).collect();
     surface
 }
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::Silent;
+    use crate::solid::testing::{cylinder, solid};
+
+    /// However many triangles a surface has, as many points ask for smaller cells.
+    #[test]
+    fn few_points_stand_for_many_small_triangles() {
+        let demands = Demands { edge_length: 0.5, curvature: Some(20.0), details: false, finest: 1 };
+        let [few, many] = [200, 1600].map(|sides| {
+            let by_level = demands.points(&solid(&cylinder(sides)), &Silent).unwrap();
+            by_level[0].len()
+        });
+        assert!(few > 100 && many < 2 * few, "{few} {many}");
+    }
+}

@@ -29,8 +29,8 @@ pub struct Survey<'a> {
     pub(super) solid: &'a SolidModel,
     /// The mean length of the edges of the mesh when it was first looked at.
     pub(super) edge: f64,
-    /// The samples of the solid, from the least corner of its bounds in shares of its diagonal: for their sake no distance has to
-    /// be known to more digits. And which quad is nearest to each.
+    /// The samples of the solid, from the least corner of its bounds in shares of its diagonal, in digits enough to tell what is far;
+    /// and which quad is nearest to each.
     samples: Vec<[f32; 3]>,
     nearest: Vec<NearestTo>,
     /// A ball around each `BALL` samples, by its middle and radius.
@@ -249,8 +249,8 @@ fn ball(points: &[Point]) -> (Point, f64) {
     (middle, squared.sqrt())
 }
 
-/// Samples of a solid, as a survey has them, for a mesh with edges of this mean length: those by which distances are told, but where they are dense
-/// one for those around.
+/// Samples of a solid, as a survey has them, for a mesh with edges of this mean length: those by which distances are told, but
+/// where they are dense one for those around.
 fn samples(edge: f64, solid: &SolidModel, monitor: &dyn Monitor) -> Result<Vec<[f32; 3]>, Cancelled> {
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
     let (origin, diagonal) = (solid.bounds().min, solid.diagonal());

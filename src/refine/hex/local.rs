@@ -219,8 +219,10 @@ pub(super) fn relax_freely(
     let around = of_same(stage, &moves, monitor)?;
     let StageMesh { positions, hexes, .. } = &mut stage.mesh;
     let anywhere = Constraints::none(positions.len());
-    let report = optimize(positions, hexes, &moves, &anywhere, options, monitor)?;
-    Ok((report.inverted, around))
+    let mut inverted = optimize(positions, hexes, &moves, &anywhere, options, monitor)?.inverted;
+    // What is doubtful elsewhere was so before.
+    inverted.retain(|hex| around.binary_search(hex).is_ok());
+    Ok((inverted, around))
 }
 
 /// For each node: is it of the stage's layer?
