@@ -3,17 +3,15 @@
 use super::background::{Background, Failure, Missed, OctreeMesh};
 use super::core::{Core, CoreOptions, core, whole_core};
 use super::correspondence::{Correspondence, correspond, correspond_alike};
-use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, NEARER, Survey, fit, quality};
+use super::fit::{FitOptions, fit};
 use super::ground::{Plan, Site};
 use super::merit::{Bar, FAIR, loses_some};
+use super::meshed::{Approach, Meshed, distances};
 use super::misses::{FineCells, misses, tolerance};
 use super::options::HexingError;
 use super::report::{AttemptReport, FeatureReport, FitCounts, MeshedReport, SheetCounts};
-use super::separate::separate;
 use super::sheets::insert_sheets;
-use crate::geometry::Point;
-use crate::mesh::{Distances, HexMesh, MeshHash, NodeId, Quads, Triangles, farthest_from_quads, mesh_hash};
-use crate::monitor::Part;
+use crate::mesh::{Distances, HexMesh, MeshHash, Quads, Triangles, farthest_from_quads, mesh_hash};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
@@ -44,70 +42,6 @@ pub(super) struct Draft {
     /// The cells of its background that are finer than others.
     cells: FineCells,
     pub(super) report: AttemptReport,
-}
-
-/// A mesh of a body and where it stands for what.
-#[derive(Clone, Debug)]
-pub(super) struct Meshed {
-    pub(super) mesh: HexMesh,
-    pub(super) on: Correspondence,
-    fitted: Fitted,
-    /// How it approaches the solid if it is kept, if it is to.
-    approach: Option<FitOptions>,
-}
-
-impl Meshed {
-    /// Finishes the mesh that is kept, and says in the `report` what came of that.
-    pub(super) fn finish(
-        &mut self,
-        solid: &SolidModel,
-        report: &mut MeshedReport,
-        monitor: &dyn Monitor,
-    ) -> Result<(), Cancelled> {
-        if let Some(options) = self.approach.take() {
-            self.approach(solid, None, &options, monitor)?;
-        }
-        let Self { mesh, on, fitted, .. } = self;
-        let mut drawn_in = Vec::new();
-        // Once more where nodes were drawn in: what is inside makes up for that.
-        for _ in 0..2 {
-            fitted.finish(mesh, on, solid, monitor)?;
-            let moved = separate(mesh, &on.faces, monitor)?;
-            if moved.is_empty() {
-                break;
-            }
-            fitted.take_off(&moved);
-            drawn_in.extend(moved);
-        }
-        drawn_in.sort_unstable();
-        drawn_in.dedup();
-        report.fit = FitCounts::new(&fitted.report, drawn_in.len());
-        let (worst, mean) = quality(mesh);
-        (report.worst, report.mean) = (worst.unwrap_or_default(), mean);
-        let rest = Part { whole: monitor, stage: FINISHING, range: [FINISHED, 1.0] };
-        (report.distance, _) = distances(mesh, on, solid, f64::INFINITY, &rest)?;
-        Ok(())
-    }
-
-    /// Brings it nearer to the solid, unless that brings little. Was it?
-    fn approach(
-        &mut self,
-        solid: &SolidModel,
-        survey: Option<Survey>,
-        options: &FitOptions,
-        monitor: &dyn Monitor,
-    ) -> Result<bool, Cancelled> {
-        let Self { mesh, on, fitted, .. } = self;
-        let before = mesh.positions.clone();
-        let report = fitted.approach(mesh, on, (solid, survey), options, monitor)?;
-        let is_nearer = report.apart <= options.near || report.apart <= NEARER * fitted.report.apart;
-        if is_nearer {
-            fitted.report = report;
-        } else {
-            mesh.positions = before;
-        }
-        Ok(is_nearer)
-    }
 }
 
 /// Cuts a core out of a background and finds the solid's features on it. It is given up, with nothing but a report, as soon
@@ -180,8 +114,8 @@ impl Draft {
         let max_distance = options.max_distance.unwrap_or(f64::INFINITY);
         let near = tolerance(site, kind);
         let too_far = if options.max_distance.is_some() { near } else { TOO_FAR * near };
-        let fair = site.taste.good + SPARE;
-        let fit_options = FitOptions { max_distance, near, fair, ..FitOptions::default() };
+        let approach = Approach::new(options.max_distance, near, site.taste.good + SPARE);
+        let fit_options = FitOptions { max_distance, ..FitOptions::default() };
         let (fitted, survey) = fit(&mut mesh, &mut on, &mut sheets, solid, &fit_options, monitor)?;
         report.features = Some(FeatureReport::new(solid, &on.reduction));
         if !fitted.report.inverted.is_empty() {
@@ -205,8 +139,8 @@ impl Draft {
         let is_far = |failures: &[Failure]| failures.iter().any(|failure| failure.missed == Missed::Far);
         if may_approach && seen.as_ref().is_none_or(|(_, failures)| is_far(failures)) {
             if is_hopeless {
-                meshed.approach = Some(fit_options);
-            } else if meshed.approach(solid, survey, &fit_options, monitor)? {
+                meshed.approach = Some(approach);
+            } else if meshed.approach(solid, survey, &approach, monitor)? {
                 seen = None;
             }
         }
@@ -217,6 +151,9 @@ impl Draft {
         let is_finest = || cells.finest(&[distance.farthest()])[0] >= site.finest(kind);
         if options.max_distance.is_none() && (may_stay || is_finest()) {
             failures.retain(|failure| failure.missed != Missed::Far);
+        }
+        if may_approach && meshed.approach.is_none() && options.max_distance.is_none() {
+            meshed.approach = Approach::of_little(distance.hausdorff(), solid.diagonal());
         }
         let came = &meshed.fitted.report;
         report.mesh = Some(MeshedReport {
@@ -260,15 +197,10 @@ fn lacks_part(
     if solid.is_free_form() || site.options.max_distance.is_some() {
         return Ok(false);
     }
-    let quads = quads_of(on);
+    let quads = on.quads();
     let boundary = Quads { positions: &core.positions, quads: &quads };
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
     Ok(farthest_from_quads(surface, boundary, edge, monitor)? > PART * edge)
-}
-
-/// The boundary.
-fn quads_of(on: &Correspondence) -> Vec<[NodeId; 4]> {
-    on.faces.iter().map(|&(quad, _)| quad).collect()
 }
 
 /// Hexes of each level.
@@ -279,30 +211,16 @@ fn levels_of(background: &OctreeMesh) -> Vec<usize> {
     counts
 }
 
-/// How far the boundaries of a mesh and a solid are from each other, and the places where that is more than the limit.
-fn distances(
-    mesh: &HexMesh,
-    on: &Correspondence,
-    solid: &SolidModel,
-    limit: f64,
-    monitor: &dyn Monitor,
-) -> Result<(Distances, Vec<Point>), Cancelled> {
-    let quads = quads_of(on);
-    let boundary = Quads { positions: &mesh.positions, quads: &quads };
-    let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
-    let nearest = |p: Point| Some(solid.nearest(p).point);
-    Distances::with_samples_beyond(limit, boundary, (surface, &nearest), monitor)
-}
-
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
     use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-    use super::super::fit::APPROACH;
     use super::super::fit::testing::house;
+    use super::super::fit::{APPROACH, NEARER};
     use super::super::merit::{Taste, distance};
     use super::super::options::HexingOptions;
     use super::*;
+    use crate::geometry::Point;
     use crate::solid::testing::{moved, solid, voxels};
     use crate::{Silent, Stage};
 
@@ -409,14 +327,14 @@ mod tests {
         let (solid, _) = house(0.5);
         let (report, meshed, _) = made(&solid, 0.4, None, &Silent);
         assert!(meshed.approach.is_none(), "it is near enough");
-        let finished = |approach: Option<FitOptions>| {
+        let finished = |approach: Option<Approach>| {
             let (mut kept, mut report) = (meshed.clone(), report.mesh.clone().unwrap());
             kept.approach = approach;
             kept.finish(&solid, &mut report, &Silent).unwrap();
             (report.distance.hausdorff(), report.worst)
         };
         let (before, good) = finished(None);
-        let (after, fair) = finished(Some(FitOptions { near: 0.03, fair: 0.36, ..FitOptions::default() }));
+        let (after, fair) = finished(Some(Approach::new(None, 0.03, 0.36)));
         assert!(after < NEARER * before && (0.36..good).contains(&fair), "{before} {after} {fair}");
     }
 

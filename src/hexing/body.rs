@@ -20,15 +20,16 @@
 //!
 //! A mesh that is too far from the solid is first brought nearer with cells that are fair instead of good (`attempt`), unless
 //! it misses more and a distance is asked for, or none is and many of its cells are poor. Where it is so far that this hardly
-//! ever suffices, smaller cells are tried before that, and it is brought nearer if it is kept.
+//! ever suffices, smaller cells are tried before that, and it is brought nearer if it is kept, as is one that lacks little
+//! (`meshed`).
 //!
 //! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and
 //! how many times as large as the first another may be is bounded.
 
-use super::attempt::Meshed;
 use super::background::{Background, BackgroundError, Failure, Missed, retry};
 use super::ground::{Plan, Site};
 use super::merit::{captured, distance};
+use super::meshed::Meshed;
 use super::options::{HexingError, HexingOptions};
 use super::report::{AttemptReport, BodyReport};
 use super::search::{Attempt, Search};

@@ -21,6 +21,7 @@ mod forecast;
 mod ground;
 mod groups;
 mod merit;
+mod meshed;
 mod misses;
 mod options;
 mod pipeline;

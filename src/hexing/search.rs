@@ -4,10 +4,11 @@
 //! another kind is fitted only if none of the solid's kind is found; one that lacks a part of the solid, only if the others do;
 //! one that loses much, only if smaller cells lose hardly less, or have something to mend.
 
-use super::attempt::{Draft, Meshed, draft};
+use super::attempt::{Draft, draft};
 use super::background::{Background, Failure, Missed};
 use super::ground::{Plan, Site};
 use super::merit::{Bar, captured, distance, is_better, is_far, loses_much, shows_more, worst};
+use super::meshed::Meshed;
 use super::options::HexingError;
 use super::report::{AttemptReport, RefusedAttempt};
 use crate::Monitor;

@@ -8,9 +8,9 @@
 
 use serde::Serialize;
 
-use super::attempt::Meshed;
 use super::correspondence::Anchor;
 use super::fit::{OnSolid, Target};
+use super::meshed::Meshed;
 use crate::geometry::Point;
 use crate::mesh::numbering::hex::{EDGES_OF_FACE, FACES};
 use crate::mesh::quality::second_order_jacobian;

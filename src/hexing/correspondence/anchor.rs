@@ -62,6 +62,11 @@ impl Correspondence {
         Some(self.edges[at].1)
     }
 
+    /// The boundary.
+    pub(in super::super) fn quads(&self) -> Vec<[NodeId; 4]> {
+        self.faces.iter().map(|&(quad, _)| quad).collect()
+    }
+
     /// The captured curves at a corner and at those that it stands for, ascending.
     pub(in super::super) fn curves_at(&self, solid: &SolidModel, corner: CornerId) -> Vec<CurveId> {
         let ends_there = |c: &CurveId| {

@@ -1,42 +1,59 @@
 //! Brings mesh and solid near enough to each other where cells are good and they are not: cells may become fair for it. That
 //! spares another attempt with smaller cells, which takes as long again and whose transitions cost cells as well.
 //!
-//! Where nodes have no room to come nearer, the worst cells around them are smoothed and they try once more. They stay where
-//! they are meanwhile in one round, and slide in the next: that takes them away at first, but also out of places from which
-//! no step leads nearer.
+//! Where nodes have no room to come nearer, cells around them are smoothed and they try once more, in one way after the other:
+//! what is far stays where it is meanwhile, or slides, which takes it away at first, but also out of places from which
+//! no step leads nearer. What came nearer counts, place by place. In the end what made room is evened out.
 
 use super::super::correspondence::Correspondence;
+use super::even::even;
 use super::holds::{Hold, Holds};
-use super::near::{Terms, near};
+use super::near::{Nearness, SHARE, Terms, far, near};
+use super::patches::keep_nearer;
 use super::rings::widen;
 use super::soften::SMOOTHING;
 use super::survey::Survey;
 use super::target::OnSolid;
-use super::{APPROACH, FITTING, FitOptions, FitReport, Fitted, GOOD, course, off, quality};
+use super::{APPROACH, FITTING, FitOptions, FitReport, Fitted, GOOD, off, quality};
+use crate::geometry::Point;
 use crate::mesh::{HexMesh, NodeId};
 use crate::monitor::Part;
 use crate::optimize::{Evening, Problem, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
-/// It goes on until they are this share of what is near from each other, if that is asked for, or else this one.
-const ENOUGH_ASKED: f64 = 0.8;
-const ENOUGH: f64 = 0.55;
+/// A way to make room: so many rings of cells around what is far are evened out, or only the worst of them smoothed; what is far
+/// stays where it is, or slides.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    rings: usize,
+    evens: bool,
+    stays: bool,
+}
 
-/// So many rounds of making room, as long as one of the last few brought something; where they are near, one of the last two, which
-/// make it in either way.
-const ROUNDS: usize = 8;
-const IN_VAIN: usize = 3;
-const IN_VAIN_NEAR: usize = 2;
+/// The ways in their order; the first follows the last.
+const WAYS: [Way; 4] = [
+    Way { rings: 2, evens: false, stays: true },
+    Way { rings: 2, evens: false, stays: false },
+    Way { rings: 4, evens: true, stays: true },
+    Way { rings: 4, evens: true, stays: false },
+];
+
+/// So many rounds of making room at most.
+const ROUNDS: usize = 12;
 
 /// That is something: this share of how far they are apart.
 const GAIN: f64 = 0.01;
 
-/// Rings of cells around what is far that are smoothed.
-const RINGS: usize = 2;
+/// Rings of cells around what is or may come to be far that are looked at meanwhile.
+const RINGS: usize = 6;
 
-/// The share of the work that is done before room is made.
-const ROOM: f64 = 0.4;
+/// What is farther than this share of the farthest is not evened out in the end.
+const CLOSE: f64 = 0.6;
+
+/// The share of the work that is done before room is made, and before the end.
+const ROOM: f64 = 0.2;
+const LAST: f64 = 0.9;
 
 impl Fitted {
     /// Brings mesh and solid as near to each other as the `options` say, as far as that is possible with cells that they call
@@ -52,66 +69,171 @@ impl Fitted {
         options: &FitOptions,
         monitor: &dyn Monitor,
     ) -> Result<FitReport, Cancelled> {
-        let &FitOptions { max_distance, near: limit, fair, .. } = options;
+        let &FitOptions { max_distance, near: enough, fair, .. } = options;
+        let evening = Evening::ALL[0];
+        let terms = Terms { leave: 0.5 * max_distance, evening, enough, fair: fair.min(GOOD) };
+        let mut survey = survey.unwrap_or_else(|| Survey::new(mesh, &on.faces, solid));
+        survey.renew(mesh, monitor)?;
+        let mut sweeps = self.report.sweeps;
+        if survey.farthest() > enough {
+            let quads = around(mesh, on, &survey, SHARE * enough, monitor)?;
+            let part = Correspondence {
+                anchors: on.anchors.clone(),
+                edges: Vec::new(),
+                faces: quads.iter().map(|&k| on.faces[k as usize]).collect(),
+                reduction: on.reduction.clone(),
+            };
+            let survey_of_part = survey.part(&quads, monitor)?;
+            let mut there = There { on: &part, holds: &self.holds, terms, survey: survey_of_part };
+            sweeps += there.approach(mesh, options.patience, monitor)?.sweeps;
+            survey.renew(mesh, monitor)?;
+        }
+        let apart = survey.farthest();
+        let off = off(mesh, on, &self.holds, &OnSolid::new(solid, &on.reduction));
+        let (worst, mean) = quality(mesh);
+        let taken_back = self.report.taken_back;
+        Ok(FitReport { taken_back, sweeps, off, worst, mean, inverted: Vec::new(), apart })
+    }
+}
+
+/// The quads around those that are farther from the solid than `least`, ascending.
+fn around(
+    mesh: &HexMesh,
+    on: &Correspondence,
+    survey: &Survey,
+    least: f64,
+    monitor: &dyn Monitor,
+) -> Result<Vec<u32>, Cancelled> {
+    let mut is_near = vec![false; mesh.positions.len()];
+    let far = on.faces.iter().zip(&survey.distances).filter(|(_, distance)| **distance > least);
+    far.flat_map(|((quad, _), _)| quad).for_each(|n| is_near[n.index()] = true);
+    widen(mesh, &mut is_near, RINGS, monitor)?;
+    let quads = (0..).zip(&on.faces).filter(|(_, (quad, _))| quad.iter().all(|n| is_near[n.index()]));
+    Ok(quads.map(|(k, _)| k).collect())
+}
+
+/// What came of it so far, or what came of it now, if they are no farther from each other; else the mesh is as `before`.
+fn nearer(so_far: Nearness, now: Nearness, mesh: &mut HexMesh, before: Vec<Point>) -> Nearness {
+    let sweeps = so_far.sweeps + now.sweeps;
+    if now.apart <= so_far.apart {
+        Nearness { sweeps, ..now }
+    } else {
+        mesh.positions = before;
+        Nearness { sweeps, ..so_far }
+    }
+}
+
+/// What is near enough to what is far to be looked at.
+struct There<'a> {
+    /// Where the nodes of the mesh stand for what; of its boundary these quads alone, of which the survey is.
+    on: &'a Correspondence,
+    holds: &'a [Hold],
+    terms: Terms,
+    survey: Survey<'a>,
+}
+
+impl There<'_> {
+    /// Brings mesh and solid nearer to each other, and makes room for that until they are near enough, so many rounds brought
+    /// nothing where they are farthest, or each way nothing anywhere.
+    fn approach(
+        &mut self,
+        mesh: &mut HexMesh,
+        patience: usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Nearness, Cancelled> {
         let part = |from: f64, to: f64| Part {
             whole: monitor,
             stage: FITTING,
             range: [from, to].map(|share| APPROACH + (1.0 - APPROACH) * share),
         };
-        let evening = Evening::ALL[0];
-        let enough = limit * if max_distance.is_finite() { ENOUGH_ASKED } else { ENOUGH };
-        let terms = Terms { leave: 0.5 * max_distance, evening, enough, fair: fair.min(GOOD) };
-        let mut survey = survey.unwrap_or_else(|| Survey::new(mesh, &on.faces, solid));
-        let mut came = course(mesh, on, &self.holds, (&mut survey, &self.far), terms, &part(0.0, ROOM))?;
-        let mut sweeps = self.report.sweeps + came.sweeps;
-        let mut in_vain = 0;
-        for round in 0..ROUNDS {
-            let patience = if came.apart <= limit { IN_VAIN_NEAR } else { IN_VAIN };
-            if came.apart <= terms.enough || in_vain >= patience {
+        let at_first = mesh.positions.clone();
+        let mut came = near(mesh, self.on, self.holds, &mut self.survey, self.terms, &part(0.0, ROOM))?;
+        let (mut in_vain, mut idle) = (0, 0);
+        for (round, way) in WAYS.into_iter().cycle().take(ROUNDS).enumerate() {
+            if came.apart <= self.terms.enough || in_vain == patience || idle == WAYS.len() {
                 break;
             }
             let [from, middle, to] =
-                [0.0, 0.5, 1.0].map(|share| ROOM + (1.0 - ROOM) * (round as f64 + share) / ROUNDS as f64);
+                [0.0, 0.5, 1.0].map(|share| ROOM + (LAST - ROOM) * (round as f64 + share) / ROUNDS as f64);
             let before = mesh.positions.clone();
-            let stay = round % 2 == 0;
-            sweeps += self.make_room(mesh, on, solid, (&came.far, stay), &part(from, middle))?;
-            let now = near(mesh, on, &self.holds, &mut survey, terms, &part(middle, to))?;
-            sweeps += now.sweeps;
+            self.survey.renew(mesh, monitor)?;
+            let was = self.survey.distances.clone();
+            let room = self.make_room(mesh, &came.far, way, &part(from, middle))?;
+            let now = self.again(mesh, (&before, &was), 1.0 - GAIN, &part(middle, to))?;
             in_vain = if now.apart < (1.0 - GAIN) * came.apart { 0 } else { in_vain + 1 };
-            if now.apart <= came.apart {
-                came = now;
-            } else {
-                mesh.positions = before;
-            }
+            idle = if mesh.positions != before { 0 } else { idle + 1 };
+            came = nearer(came, Nearness { sweeps: room + now.sweeps, ..now }, mesh, before);
         }
-        let off = off(mesh, on, &self.holds, &OnSolid::new(solid, &on.reduction));
-        let (worst, mean) = quality(mesh);
-        let (taken_back, apart) = (self.report.taken_back, came.apart);
-        Ok(FitReport { taken_back, sweeps, off, worst, mean, inverted: Vec::new(), apart })
+        self.settle(mesh, &at_first, came, &part(LAST, 1.0))
     }
 
-    /// Smooths the worst cells around nodes that are `far`, which stay where they are or slide. Returns the number of sweeps.
+    /// Smooths cells around nodes that are `far` in a way. Returns the number of sweeps.
     fn make_room(
         &self,
         mesh: &mut HexMesh,
-        on: &Correspondence,
-        solid: &SolidModel,
-        (far, stay): (&[bool], bool),
+        far: &[bool],
+        way: Way,
         monitor: &dyn Monitor,
     ) -> Result<usize, Cancelled> {
+        let (on, solid) = (self.on, self.survey.solid);
         let mut moves = far.to_vec();
-        widen(mesh, &mut moves, RINGS, monitor)?;
+        widen(mesh, &mut moves, way.rings, monitor)?;
+        if way.evens {
+            let is_moved = |n: NodeId| moves[n.index()] && !(way.stays && far[n.index()]);
+            return even(mesh, on, self.holds, solid, self.terms.evening, &is_moved, monitor);
+        }
         let is_moved = |n: NodeId| moves[n.index()];
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, &is_moved, monitor)?;
         problem.order_by(4, |n| on.anchors[n.index()].freedom());
         let target = OnSolid::new(solid, &on.reduction);
-        let mut guide = Holds::kept(&target, &on.anchors, &self.holds, &mesh.positions);
-        if stay {
+        let mut guide = Holds::kept(&target, &on.anchors, self.holds, &mesh.positions);
+        if way.stays {
             (0..far.len()).filter(|&n| far[n]).for_each(|n| guide.holds[n] = Hold::Pinned);
         }
         let sweeps = smooth(&mut problem, &guide, &SMOOTHING, None, monitor)?;
         problem.write_back(&mut mesh.positions);
         Ok(sweeps)
+    }
+
+    /// Brings nearer what is far, and takes back what did not help: of what was apart `before` less than a share has to be left.
+    fn again(
+        &mut self,
+        mesh: &mut HexMesh,
+        (before, was): (&[Point], &[f64]),
+        share: f64,
+        monitor: &dyn Monitor,
+    ) -> Result<Nearness, Cancelled> {
+        let now = near(mesh, self.on, self.holds, &mut self.survey, self.terms, monitor)?;
+        self.survey.renew(mesh, monitor)?;
+        keep_nearer(mesh, before, (&self.on.faces, was, &self.survey.distances), share);
+        self.survey.renew(mesh, monitor)?;
+        let apart = self.survey.farthest();
+        let far = far(mesh, self.on, self.holds, &self.survey, SHARE * apart);
+        Ok(Nearness { apart, far, ..now })
+    }
+
+    /// Evens out what moved since `at_first`, but for what is far, if that takes mesh and solid no farther from each other.
+    fn settle(
+        &mut self,
+        mesh: &mut HexMesh,
+        at_first: &[Point],
+        came: Nearness,
+        monitor: &dyn Monitor,
+    ) -> Result<Nearness, Cancelled> {
+        let mut moves: Vec<bool> = mesh.positions.iter().zip(at_first).map(|(p, q)| p != q).collect();
+        if !moves.contains(&true) {
+            return Ok(came);
+        }
+        let before = mesh.positions.clone();
+        self.survey.renew(mesh, monitor)?;
+        let was = self.survey.distances.clone();
+        let far = self.on.faces.iter().zip(&was).filter(|(_, distance)| **distance > CLOSE * came.apart);
+        far.flat_map(|((quad, _), _)| quad).for_each(|n| moves[n.index()] = false);
+        let is_moved = |n: NodeId| moves[n.index()];
+        let (on, solid) = (self.on, self.survey.solid);
+        let sweeps = even(mesh, on, self.holds, solid, self.terms.evening, &is_moved, monitor)?;
+        let now = self.again(mesh, (&before, &was), 1.0, monitor)?;
+        Ok(nearer(came, Nearness { sweeps: sweeps + now.sweeps, ..now }, mesh, before))
     }
 }
 
@@ -135,8 +257,7 @@ mod tests {
             *place = target.foot(anchor, *place).map_or(*place, |foot| foot.point);
         }
         assert!(farthest(&mesh, &on, &solid) > 0.07);
-        let far = vec![true; mesh.positions.len()];
-        let fitted = Fitted { report: FitReport::default(), holds: held(&on), far };
+        let fitted = Fitted { report: FitReport::default(), holds: held(&on) };
         let options = FitOptions { near, fair, ..FitOptions::default() };
         let report = fitted.approach(&mut mesh, &on, (&solid, None), &options, &Silent).unwrap();
         assert_eq!((report.worst, report.mean), quality(&mesh));
@@ -146,21 +267,27 @@ mod tests {
 
     #[test]
     fn cells_become_fair_for_the_sake_of_distance() {
-        let near = 0.06;
-        let [(good, best, most), (fair, worst, sweeps)] =
-            [GOOD, 0.36].map(|least| approached(0.5, near, least));
+        let (near, enough) = (0.06, 0.033);
+        let [(good, best, _), (fair, worst, sweeps)] =
+            [GOOD, 0.36].map(|least| approached(0.5, enough, least));
         assert!(good <= near && best >= GOOD, "{good} {best}");
         assert!(fair <= near && (0.36..GOOD).contains(&worst), "{fair} {worst}");
-        assert!(sweeps < most, "it is near sooner: {sweeps} {most}");
+        assert!(fair < good, "{fair} {good}");
         // Good is all that is ever asked for, and what is near enough stays so.
-        assert_eq!(approached(0.5, near, 0.6), approached(0.5, near, GOOD));
+        assert_eq!(approached(0.5, enough, 0.6), approached(0.5, enough, GOOD));
         assert!(approached(0.5, 1.0, 0.36).2 < sweeps);
     }
 
     #[test]
+    fn what_is_near_enough_stays_as_it_is() {
+        let (before, good, none) = approached(0.5, 1.0, GOOD);
+        assert!(before > 0.07 && none == 0, "{before} {good} {none}");
+    }
+
+    #[test]
     fn room_is_made_where_they_stay_apart() {
-        let (alone, _, few) = approached(0.65, 0.18, GOOD);
-        let (with_room, best, many) = approached(0.65, 0.05, GOOD);
+        let (alone, _, few) = approached(0.65, 0.1, GOOD);
+        let (with_room, best, many) = approached(0.65, 0.03, GOOD);
         assert!(with_room < 0.95 * alone && best >= GOOD && many > few, "{with_room} {alone} {best}");
     }
 }

@@ -124,8 +124,7 @@ mod tests {
             mesh.positions[n] += Point::new(0.0, 0.3, 0.0);
             mesh.positions[n]
         });
-        let far = vec![false; mesh.positions.len()];
-        let mut fitted = Fitted { report: FitReport::default(), holds, far };
+        let mut fitted = Fitted { report: FitReport::default(), holds };
         fitted.finish(&mut mesh, &on, &solid, &Silent).unwrap();
         assert_eq!(mesh.positions[beside], pushed[0]);
         assert!(mesh.positions[other].distance(pushed[1]) > 0.1, "{}", mesh.positions[other]);

@@ -15,7 +15,8 @@
 //!    and nodes found much better places, the last two steps are made again around there, with other courses, and each counts
 //!    that brings them much nearer;
 //! 8. `approach`: where they are so far apart that another attempt would be made, or was and is no better, with cells that are
-//!    fair instead of good, and with room that is made among the worst of them ([`Fitted::approach`]);
+//!    fair instead of good, and where little is missing, with good ones: room is made among the cells around, and what came
+//!    nearer counts, place by place ([`Fitted::approach`], `patches`);
 //! 9. `even` once more, for what is inside and in planes ([`Fitted::finish`]): that takes mesh and solid no farther from
 //!    each other, so that meshes can be held against each other before it, and only the one that is kept needs it.
 //!
@@ -37,6 +38,7 @@ mod holds;
 mod inflate;
 mod loosen;
 mod near;
+mod patches;
 mod pull;
 mod regions;
 mod rings;
@@ -128,6 +130,8 @@ pub struct FitOptions {
     pub max_distance: f64,
     /// How near mesh and solid are brought to each other by [`Fitted::approach`], in model units.
     pub near: f64,
+    /// After so many rounds in vain that ends.
+    pub patience: usize,
     /// The least scaled Jacobian that this leaves in cells that have a greater one.
     pub fair: f64,
 }
@@ -144,6 +148,7 @@ impl Default for FitOptions {
             },
             max_distance: f64::INFINITY,
             near: f64::INFINITY,
+            patience: 5,
             fair: GOOD,
         }
     }
@@ -185,8 +190,6 @@ pub struct Fitted {
     /// What came of it.
     pub report: FitReport,
     holds: Vec<Hold>,
-    /// Nodes near which mesh and solid are farthest from each other.
-    far: Vec<bool>,
 }
 
 /// Moves the nodes of `mesh` to the solid as `on` tells: all but the last step. What came of it, and what was seen of mesh and
@@ -207,18 +210,18 @@ pub fn fit<'a>(
     let part = |from, to| Part { whole: monitor, stage: FITTING, range: [from, to] };
     let (mut report, mut holds) =
         fitted(mesh, on, sheets, &OnSolid::new(solid, &reduction), options, &part(0.0, SOFTEN))?;
-    let (mut far, mut survey) = (Vec::new(), None);
+    let mut survey = None;
     if report.inverted.is_empty() {
         let softened = soften(mesh, on, &mut holds, solid, options.max_distance, &part(SOFTEN, EVEN))?;
         let part = part(EVEN, APPROACH);
         let seen = survey.insert(Survey::new(mesh, &on.faces, solid));
         let came = even_and_near(mesh, on, &holds, seen, options.max_distance, &part)?;
         report.sweeps += softened + came.sweeps;
-        (far, report.apart) = (came.far, came.apart);
+        report.apart = came.apart;
         (report.worst, report.mean) = quality(mesh);
         report.off = off(mesh, on, &holds, &OnSolid::new(solid, &on.reduction));
     }
-    Ok((Fitted { report, holds, far }, survey))
+    Ok((Fitted { report, holds }, survey))
 }
 
 #[cfg(test)]

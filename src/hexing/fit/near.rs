@@ -10,7 +10,7 @@ use super::super::correspondence::{Anchor, Correspondence};
 use super::apart::{Apart, Probes, power};
 use super::holds::Hold;
 use super::rings::widen;
-use super::survey::{Survey, mean_edge, mean_side, quads};
+use super::survey::{Survey, mean_side, quads};
 use super::target::{OnSolid, Target};
 use super::{FITTING, LEAVE, quality};
 use crate::geometry::Point;
@@ -23,7 +23,7 @@ use crate::{Cancelled, Monitor, parallel};
 
 /// What is farther apart than this share of the farthest, and than so many edges (those there, or the mean of all if that
 /// is longer), is brought nearer.
-const SHARE: f64 = 0.8;
+pub(super) const SHARE: f64 = 0.8;
 const LEAST: f64 = 0.085;
 
 /// How often each node is tried, before what is inside follows, and how often that is done.
@@ -98,8 +98,8 @@ pub(super) struct Terms {
     pub(super) fair: f64,
 }
 
-/// Moves boundary nodes where mesh and solid are farthest from each other. The `survey` may be older than the mesh, and is not
-/// afterwards.
+/// Moves boundary nodes where mesh and solid are farthest from each other. The `survey` may have looked at another mesh before,
+/// and in the end.
 pub(super) fn near(
     mesh: &mut HexMesh,
     on: &Correspondence,
@@ -112,6 +112,7 @@ pub(super) fn near(
     let target = OnSolid::new(solid, &on.reduction);
     let mut came = Nearness { sweeps: 0, at_first: f64::INFINITY, apart: f64::INFINITY, far: Vec::new() };
     let mut best = Vec::new();
+    let mut worst = None;
     for round in 0..=ROUNDS {
         let part = |from: f64, to: f64| Part {
             whole: monitor,
@@ -119,7 +120,7 @@ pub(super) fn near(
             range: [from, to].map(|share| (round as f64 + share) / (ROUNDS + 1) as f64),
         };
         survey.renew(mesh, monitor)?;
-        let farthest = survey.distances.iter().copied().fold(0.0, f64::max);
+        let farthest = survey.farthest();
         if farthest > came.apart {
             mesh.positions = best;
             break;
@@ -137,7 +138,8 @@ pub(super) fn near(
         let moves = |n: NodeId| came.far[n.index()];
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, &moves, monitor)?;
         let gaps = Apart::new(&problem, &on.faces, survey);
-        let worst = quality(mesh).0.map_or(terms.fair, |worst| worst.min(terms.fair));
+        let worst_of_all = || quality(mesh).0.map_or(terms.fair, |worst| worst.min(terms.fair));
+        let worst = *worst.get_or_insert_with(worst_of_all);
         let places = Places { on, holds, target: &target, apart: gaps, worst, leave: terms.leave };
         let tries = places.try_all(&mut problem, &part(0.0, 0.7))?;
         problem.write_back(&mut mesh.positions);
@@ -150,12 +152,17 @@ pub(super) fn near(
 }
 
 /// The nodes of the quads that are farther than `LEAST` edges and `least`, if they may move.
-fn far(mesh: &HexMesh, on: &Correspondence, holds: &[Hold], survey: &Survey, least: f64) -> Vec<bool> {
+pub(super) fn far(
+    mesh: &HexMesh,
+    on: &Correspondence,
+    holds: &[Hold],
+    survey: &Survey,
+    least: f64,
+) -> Vec<bool> {
     let quads = quads(mesh, &on.faces);
-    let mean = mean_edge(&quads);
     let mut is_far = vec![false; mesh.positions.len()];
     for (((quad, _), places), &distance) in on.faces.iter().zip(&quads).zip(&survey.distances) {
-        let edge = mean_side(places).max(mean);
+        let edge = mean_side(places).max(survey.edge);
         if distance > least.max(LEAST * edge) {
             quad.iter().for_each(|n| is_far[n.index()] = true);
         }
@@ -358,6 +365,29 @@ mod tests {
         mesh.positions[moved] -= Point::splat(0.1);
         survey.renew(&mesh, &Silent).unwrap();
         assert_eq!(survey.distances, before);
+    }
+
+    /// A node of the part moves, and what is seen there is what is seen of all.
+    #[test]
+    fn a_survey_of_a_part_sees_what_that_of_all_sees_there() {
+        let (solid, mut mesh) = house(0.2);
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let mut all = Survey::new(&mesh, &on.faces, &solid);
+        all.renew(&mesh, &Silent).unwrap();
+        let inner = |quad: &[NodeId; 4]| quad.iter().all(|n| mesh.positions[n.index()].y > 0.9);
+        let quads: Vec<u32> =
+            (0..on.faces.len() as u32).filter(|&k| inner(&on.faces[k as usize].0)).collect();
+        assert!(quads.len() > 10 && 2 * quads.len() < on.faces.len());
+        let mut part = all.part(&quads, &Silent).unwrap();
+        let seen = |all: &Survey| quads.iter().map(|&k| all.distances[k as usize]).collect::<Vec<_>>();
+        assert_eq!(part.distances, seen(&all));
+        let far = mesh.bounds().max.y - 1e-9;
+        let moved = (0..on.anchors.len()).find(|&n| mesh.positions[n].y > far).unwrap();
+        mesh.positions[moved] += Point::splat(0.03);
+        part.renew(&mesh, &Silent).unwrap();
+        assert!(part.distances != seen(&all), "it sees what moved");
+        all.renew(&mesh, &Silent).unwrap();
+        assert_eq!((part.distances.clone(), part.farthest()), (seen(&all), all.farthest()));
     }
 
     #[test]

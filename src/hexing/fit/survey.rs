@@ -24,6 +24,9 @@ const BALL: usize = 64;
 /// What is looked for around a ball of samples is farther, squared, than need be by this share: no rounding leaves one out.
 const ROUNDING: f64 = 1e-6;
 
+/// No place in a list.
+const NOWHERE: u32 = u32::MAX;
+
 /// All of a boundary, and how far each quad is from the solid.
 pub struct Survey<'a> {
     pub(super) solid: &'a SolidModel,
@@ -82,6 +85,9 @@ impl<'a> Survey<'a> {
             self.sample(monitor)?;
         }
         let moved_nodes = self.follow(mesh);
+        if !self.distances.is_empty() && !moved_nodes.contains(&true) {
+            return Ok(());
+        }
         let of_nodes = std::mem::take(&mut self.of_nodes);
         self.of_nodes = parallel::try_collect(self.nodes.len(), monitor, |n| {
             if moved_nodes[n] { self.solid.nearest(self.places[n]).distance } else { of_nodes[n] }
@@ -95,6 +101,39 @@ impl<'a> Survey<'a> {
         let mut nearest = std::mem::take(&mut self.nearest);
         self.bring_nearest(&mut nearest, &has_moved, monitor)?;
         self.nearest = nearest;
+        self.rank(monitor)
+    }
+
+    /// That of these quads alone, which ascend, and of what is nearest to them; it has looked, as this one has.
+    pub(super) fn part(&self, quads: &[u32], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+        let (mut node_of, mut quad_of) = (vec![NOWHERE; self.nodes.len()], vec![NOWHERE; self.quads.len()]);
+        (0..).zip(quads).for_each(|(k, &quad)| quad_of[quad as usize] = k);
+        quads.iter().flat_map(|&quad| self.quads[quad as usize]).for_each(|n| node_of[n as usize] = 0);
+        let nodes: Vec<usize> = (0..node_of.len()).filter(|&n| node_of[n] != NOWHERE).collect();
+        (0..).zip(&nodes).for_each(|(k, &n)| node_of[n] = k);
+        let is_near = |k: usize| quad_of[self.nearest[k].quad as usize] != NOWHERE;
+        let samples: Vec<usize> = (0..self.samples.len()).filter(|&k| is_near(k)).collect();
+        let nearest = samples.iter().map(|&k| self.nearest[k]);
+        let mut part = Self {
+            samples: samples.iter().map(|&k| self.samples[k]).collect(),
+            nearest: nearest.map(|near| NearestTo { quad: quad_of[near.quad as usize], ..near }).collect(),
+            balls: Vec::new(),
+            nodes: nodes.iter().map(|&n| self.nodes[n]).collect(),
+            places: nodes.iter().map(|&n| self.places[n]).collect(),
+            of_nodes: nodes.iter().map(|&n| self.of_nodes[n]).collect(),
+            quads: quads.iter().map(|&q| self.quads[q as usize].map(|n| node_of[n as usize])).collect(),
+            of_mesh: quads.iter().map(|&q| self.of_mesh[q as usize]).collect(),
+            of_solid: Bins::default(),
+            distances: Vec::new(),
+            ..*self
+        };
+        part.enclose(monitor)?;
+        part.rank(monitor)?;
+        Ok(part)
+    }
+
+    /// Puts the samples at each quad in order, the farthest first, and tells how far each quad is.
+    fn rank(&mut self, monitor: &dyn Monitor) -> Result<(), Cancelled> {
         let quad_of = |k: usize| self.nearest[k].quad as usize;
         self.of_solid = Bins::monitored(self.quads.len(), self.samples.len(), quad_of, monitor)?;
         let (nearest, unit) = (&self.nearest, self.unit());
@@ -117,6 +156,11 @@ impl<'a> Survey<'a> {
     /// Samples the solid. Not before they are looked at: samples are what most of the memory is for.
     fn sample(&mut self, monitor: &dyn Monitor) -> Result<(), Cancelled> {
         self.samples = samples(self.edge, self.solid, monitor)?;
+        self.enclose(monitor)
+    }
+
+    /// Finds the balls around the samples.
+    fn enclose(&mut self, monitor: &dyn Monitor) -> Result<(), Cancelled> {
         self.balls = parallel::try_collect(self.samples.len().div_ceil(BALL), monitor, |k| {
             let range = k * BALL..self.samples.len().min((k + 1) * BALL);
             ball(&range.map(|k| self.sample_at(k)).collect::<Vec<_>>())
@@ -149,6 +193,11 @@ impl<'a> Survey<'a> {
         let between = (0..4).filter(is_ours).flat_map(quarters).chain(CutQuad(corners).middles());
         let of_nodes = self.quads[quad].map(|n| self.of_nodes[n as usize]);
         between.map(|p| self.solid.nearest(p).distance).chain(of_nodes).fold(0.0, f64::max)
+    }
+
+    /// The greatest distance of all.
+    pub(super) fn farthest(&self) -> f64 {
+        self.distances.iter().copied().fold(0.0, f64::max)
     }
 
     /// Where the corners of a quad are.

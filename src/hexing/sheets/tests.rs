@@ -32,7 +32,7 @@ fn euler_but(mesh: &HexMesh, allowed: impl Fn(&Defect) -> bool) -> i64 {
 /// What has to be true of a correspondence for a mesh.
 fn assert_true(mesh: &HexMesh, on: &Correspondence) {
     let boundary: Vec<[NodeId; 4]> = hex_boundary(&mesh.hexes).into_iter().map(|(quad, _)| quad).collect();
-    assert_eq!(boundary, on.faces.iter().map(|&(quad, _)| quad).collect::<Vec<_>>());
+    assert_eq!(boundary, on.quads());
     assert_eq!(on.anchors.len(), mesh.positions.len());
     assert!(on.edges.is_sorted());
     // Edges between surfaces are those on curves, and nothing else is.

@@ -1,0 +1,136 @@
+//! A mesh of a body: how it comes nearer to its solid, if it is worth it, and what is done once it is kept.
+
+use super::correspondence::Correspondence;
+use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, NEARER, Survey, quality};
+use super::report::{FitCounts, MeshedReport};
+use super::separate::separate;
+use crate::geometry::Point;
+use crate::mesh::{Distances, HexMesh, Quads, Triangles};
+use crate::monitor::Part;
+use crate::solid::SolidModel;
+use crate::{Cancelled, Monitor};
+
+/// An approach goes on until mesh and solid are this share of what is near from each other, if that is asked for, or else this one.
+const ENOUGH_ASKED: f64 = 0.8;
+const ENOUGH: f64 = 0.55;
+
+/// A mesh that is kept, and is farther from its solid than the first of these shares of the diagonal but not than the second, lacks
+/// little: it is brought as near as the first, with cells that stay good.
+const LITTLE: [f64; 2] = [0.002, 0.003];
+
+/// So many rounds in vain are enough for that.
+const PATIENCE: usize = 2;
+
+/// A mesh of a body and where it stands for what.
+#[derive(Clone, Debug)]
+pub(super) struct Meshed {
+    pub(super) mesh: HexMesh,
+    pub(super) on: Correspondence,
+    pub(super) fitted: Fitted,
+    /// How it approaches the solid if it is kept, if it is to.
+    pub(super) approach: Option<Approach>,
+}
+
+/// How a mesh is brought nearer to its solid.
+#[derive(Clone, Debug)]
+pub(super) struct Approach {
+    options: FitOptions,
+    /// It counts where they are so near then, in model units, or much nearer than they were.
+    near: f64,
+}
+
+impl Approach {
+    /// One with which they come so near if that is possible with cells that are fair, and nearer if it is.
+    pub(super) fn new(max_distance: Option<f64>, near: f64, fair: f64) -> Self {
+        let enough = near * if max_distance.is_some() { ENOUGH_ASKED } else { ENOUGH };
+        let max_distance = max_distance.unwrap_or(f64::INFINITY);
+        Self { options: FitOptions { max_distance, near: enough, fair, ..FitOptions::default() }, near }
+    }
+
+    /// One for a mesh that is kept, where it lacks little: cells stay good.
+    pub(super) fn of_little(apart: f64, diagonal: f64) -> Option<Self> {
+        let [near, far] = LITTLE.map(|share| share * diagonal);
+        let options = FitOptions { near, patience: PATIENCE, ..FitOptions::default() };
+        (near < apart && apart <= far).then_some(Self { options, near })
+    }
+}
+
+impl Meshed {
+    /// Finishes the mesh that is kept, and says in the `report` what came of that.
+    pub(super) fn finish(
+        &mut self,
+        solid: &SolidModel,
+        report: &mut MeshedReport,
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
+        if let Some(approach) = self.approach.take() {
+            self.approach(solid, None, &approach, monitor)?;
+        }
+        let Self { mesh, on, fitted, .. } = self;
+        let mut drawn_in = Vec::new();
+        // Once more where nodes were drawn in: what is inside makes up for that.
+        for _ in 0..2 {
+            fitted.finish(mesh, on, solid, monitor)?;
+            let moved = separate(mesh, &on.faces, monitor)?;
+            if moved.is_empty() {
+                break;
+            }
+            fitted.take_off(&moved);
+            drawn_in.extend(moved);
+        }
+        drawn_in.sort_unstable();
+        drawn_in.dedup();
+        report.fit = FitCounts::new(&fitted.report, drawn_in.len());
+        let (worst, mean) = quality(mesh);
+        (report.worst, report.mean) = (worst.unwrap_or_default(), mean);
+        let rest = Part { whole: monitor, stage: FINISHING, range: [FINISHED, 1.0] };
+        (report.distance, _) = distances(mesh, on, solid, f64::INFINITY, &rest)?;
+        Ok(())
+    }
+
+    /// Brings it nearer to the solid, unless that brings little. Was it?
+    pub(super) fn approach(
+        &mut self,
+        solid: &SolidModel,
+        survey: Option<Survey>,
+        Approach { options, near }: &Approach,
+        monitor: &dyn Monitor,
+    ) -> Result<bool, Cancelled> {
+        let Self { mesh, on, fitted, .. } = self;
+        let before = mesh.positions.clone();
+        let report = fitted.approach(mesh, on, (solid, survey), options, monitor)?;
+        let is_nearer = report.apart <= *near || report.apart <= NEARER * fitted.report.apart;
+        if is_nearer {
+            fitted.report = report;
+        } else {
+            mesh.positions = before;
+        }
+        Ok(is_nearer)
+    }
+}
+
+/// How far the boundaries of a mesh and a solid are from each other, and the places where that is more than the limit.
+pub(super) fn distances(
+    mesh: &HexMesh,
+    on: &Correspondence,
+    solid: &SolidModel,
+    limit: f64,
+    monitor: &dyn Monitor,
+) -> Result<(Distances, Vec<Point>), Cancelled> {
+    let quads = on.quads();
+    let boundary = Quads { positions: &mesh.positions, quads: &quads };
+    let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
+    let nearest = |p: Point| Some(solid.nearest(p).point);
+    Distances::with_samples_beyond(limit, boundary, (surface, &nearest), monitor)
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_that_lacks_little_is_brought_as_near_as_that() {
+        let near = |apart: f64| Approach::of_little(apart, 10.0).map(|approach| approach.near);
+        assert_eq!([0.02, 0.0201, 0.03, 0.0301].map(near), [None, Some(0.02), Some(0.02), None]);
+    }
+}
