@@ -6,19 +6,18 @@
 //! no step leads nearer. What came nearer counts, place by place. In the end what made room is evened out.
 
 use super::super::correspondence::Correspondence;
-use super::even::even;
-use super::holds::{Hold, Holds};
-use super::near::{Nearness, SHARE, Terms, far, near};
+use super::even::{even, sliding};
+use super::holds::Hold;
+use super::near::{Nearness, SHARE, Terms, far, mark, near};
 use super::patches::keep_nearer;
 use super::rings::widen;
 use super::soften::SMOOTHING;
 use super::survey::Survey;
 use super::target::OnSolid;
 use super::{APPROACH, FITTING, FitOptions, FitReport, Fitted, GOOD, off, quality};
-use crate::geometry::Point;
 use crate::mesh::{HexMesh, NodeId};
 use crate::monitor::Part;
-use crate::optimize::{Evening, Problem, smooth};
+use crate::optimize::{Evening, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
@@ -77,15 +76,11 @@ impl Fitted {
         let mut sweeps = self.report.sweeps;
         if survey.farthest() > enough {
             let quads = around(mesh, on, &survey, SHARE * enough, monitor)?;
-            let part = Correspondence {
-                anchors: on.anchors.clone(),
-                edges: Vec::new(),
-                faces: quads.iter().map(|&k| on.faces[k as usize]).collect(),
-                reduction: on.reduction.clone(),
-            };
+            let faces = quads.iter().map(|&k| on.faces[k as usize]).collect();
+            let part = Correspondence { faces, ..on.clone() };
             let survey_of_part = survey.part(&quads, monitor)?;
             let mut there = There { on: &part, holds: &self.holds, terms, survey: survey_of_part };
-            sweeps += there.approach(mesh, options.patience, monitor)?.sweeps;
+            sweeps += there.approach(mesh, options.patience, monitor)?;
             survey.renew(mesh, monitor)?;
         }
         let apart = survey.farthest();
@@ -105,22 +100,10 @@ fn around(
     monitor: &dyn Monitor,
 ) -> Result<Vec<u32>, Cancelled> {
     let mut is_near = vec![false; mesh.positions.len()];
-    let far = on.faces.iter().zip(&survey.distances).filter(|(_, distance)| **distance > least);
-    far.flat_map(|((quad, _), _)| quad).for_each(|n| is_near[n.index()] = true);
+    mark(&mut is_near, (&on.faces, &survey.distances), least, true);
     widen(mesh, &mut is_near, RINGS, monitor)?;
     let quads = (0..).zip(&on.faces).filter(|(_, (quad, _))| quad.iter().all(|n| is_near[n.index()]));
     Ok(quads.map(|(k, _)| k).collect())
-}
-
-/// What came of it so far, or what came of it now, if they are no farther from each other; else the mesh is as `before`.
-fn nearer(so_far: Nearness, now: Nearness, mesh: &mut HexMesh, before: Vec<Point>) -> Nearness {
-    let sweeps = so_far.sweeps + now.sweeps;
-    if now.apart <= so_far.apart {
-        Nearness { sweeps, ..now }
-    } else {
-        mesh.positions = before;
-        Nearness { sweeps, ..so_far }
-    }
 }
 
 /// What is near enough to what is far to be looked at.
@@ -133,14 +116,14 @@ struct There<'a> {
 }
 
 impl There<'_> {
-    /// Brings mesh and solid nearer to each other, and makes room for that until they are near enough, so many rounds brought
-    /// nothing where they are farthest, or each way nothing anywhere.
+    /// Brings mesh and solid nearer to each other, and makes room for that until they are near enough or so many rounds brought
+    /// nothing where they are farthest.
     fn approach(
         &mut self,
         mesh: &mut HexMesh,
         patience: usize,
         monitor: &dyn Monitor,
-    ) -> Result<Nearness, Cancelled> {
+    ) -> Result<usize, Cancelled> {
         let part = |from: f64, to: f64| Part {
             whole: monitor,
             stage: FITTING,
@@ -148,23 +131,32 @@ impl There<'_> {
         };
         let at_first = mesh.positions.clone();
         let mut came = near(mesh, self.on, self.holds, &mut self.survey, self.terms, &part(0.0, ROOM))?;
-        let (mut in_vain, mut idle) = (0, 0);
-        for (round, way) in WAYS.into_iter().cycle().take(ROUNDS).enumerate() {
-            if came.apart <= self.terms.enough || in_vain == patience || idle == WAYS.len() {
+        let mut in_vain = 0;
+        for round in 0..ROUNDS {
+            let way = WAYS[round % WAYS.len()];
+            if came.apart <= self.terms.enough || in_vain == patience {
                 break;
             }
-            let [from, middle, to] =
-                [0.0, 0.5, 1.0].map(|share| ROOM + (LAST - ROOM) * (round as f64 + share) / ROUNDS as f64);
-            let before = mesh.positions.clone();
-            self.survey.renew(mesh, monitor)?;
-            let was = self.survey.distances.clone();
-            let room = self.make_room(mesh, &came.far, way, &part(from, middle))?;
-            let now = self.again(mesh, (&before, &was), 1.0 - GAIN, &part(middle, to))?;
-            in_vain = if now.apart < (1.0 - GAIN) * came.apart { 0 } else { in_vain + 1 };
-            idle = if mesh.positions != before { 0 } else { idle + 1 };
-            came = nearer(came, Nearness { sweeps: room + now.sweeps, ..now }, mesh, before);
+            let from = |round: usize| ROOM + (LAST - ROOM) * round as f64 / ROUNDS as f64;
+            let part = part(from(round), from(round + 1));
+            let was = came.apart;
+            let room = |this: &Self, mesh: &mut HexMesh, far: &[bool], monitor: &dyn Monitor| {
+                this.make_room(mesh, far, way, monitor)
+            };
+            came = self.again(mesh, came, 1.0 - GAIN, &room, &part)?;
+            in_vain = if came.apart < (1.0 - GAIN) * was { 0 } else { in_vain + 1 };
         }
-        self.settle(mesh, &at_first, came, &part(LAST, 1.0))
+        let mut moves: Vec<bool> = mesh.positions.iter().zip(&at_first).map(|(p, q)| p != q).collect();
+        if !moves.contains(&true) {
+            return Ok(came.sweeps);
+        }
+        let part = part(LAST, 1.0);
+        self.survey.renew(mesh, monitor)?;
+        mark(&mut moves, (&self.on.faces, &self.survey.distances), CLOSE * came.apart, false);
+        let settle = |this: &Self, mesh: &mut HexMesh, _: &[bool], monitor: &dyn Monitor| {
+            this.even(mesh, &|n| moves[n.index()], monitor)
+        };
+        Ok(self.again(mesh, came, 1.0, &settle, &part)?.sweeps)
     }
 
     /// Smooths cells around nodes that are `far` in a way. Returns the number of sweeps.
@@ -175,67 +167,62 @@ impl There<'_> {
         way: Way,
         monitor: &dyn Monitor,
     ) -> Result<usize, Cancelled> {
-        let (on, solid) = (self.on, self.survey.solid);
         let mut moves = far.to_vec();
         widen(mesh, &mut moves, way.rings, monitor)?;
         if way.evens {
-            let is_moved = |n: NodeId| moves[n.index()] && !(way.stays && far[n.index()]);
-            return even(mesh, on, self.holds, solid, self.terms.evening, &is_moved, monitor);
+            return self.even(mesh, &|n| moves[n.index()] && !(way.stays && far[n.index()]), monitor);
         }
         let is_moved = |n: NodeId| moves[n.index()];
-        let mut problem = Problem::within(&mesh.positions, &mesh.hexes, &is_moved, monitor)?;
-        problem.order_by(4, |n| on.anchors[n.index()].freedom());
-        let target = OnSolid::new(solid, &on.reduction);
-        let mut guide = Holds::kept(&target, &on.anchors, self.holds, &mesh.positions);
-        if way.stays {
-            (0..far.len()).filter(|&n| far[n]).for_each(|n| guide.holds[n] = Hold::Pinned);
-        }
-        let sweeps = smooth(&mut problem, &guide, &SMOOTHING, None, monitor)?;
-        problem.write_back(&mut mesh.positions);
-        Ok(sweeps)
+        sliding(mesh, self.on, self.holds, self.survey.solid, &is_moved, monitor, &|problem, guide| {
+            if way.stays {
+                (0..far.len()).filter(|&n| far[n]).for_each(|n| guide.holds[n] = Hold::Pinned);
+            }
+            smooth(problem, guide, &SMOOTHING, None, monitor)
+        })
     }
 
-    /// Brings nearer what is far, and takes back what did not help: of what was apart `before` less than a share has to be left.
+    /// Evens out the cells around the nodes that move. Returns the number of sweeps.
+    fn even(
+        &self,
+        mesh: &mut HexMesh,
+        moves: &(dyn Fn(NodeId) -> bool + Sync),
+        monitor: &dyn Monitor,
+    ) -> Result<usize, Cancelled> {
+        even(mesh, self.on, self.holds, self.survey.solid, self.terms.evening, moves, monitor)
+    }
+
+    /// Moves what gives room, brings nearer what is far, and takes back what did not help: of what was apart no more than a share
+    /// is to be left. Returns what came of all until then.
     fn again(
         &mut self,
         mesh: &mut HexMesh,
-        (before, was): (&[Point], &[f64]),
-        share: f64,
-        monitor: &dyn Monitor,
-    ) -> Result<Nearness, Cancelled> {
-        let now = near(mesh, self.on, self.holds, &mut self.survey, self.terms, monitor)?;
-        self.survey.renew(mesh, monitor)?;
-        keep_nearer(mesh, before, (&self.on.faces, was, &self.survey.distances), share);
-        self.survey.renew(mesh, monitor)?;
-        let apart = self.survey.farthest();
-        let far = far(mesh, self.on, self.holds, &self.survey, SHARE * apart);
-        Ok(Nearness { apart, far, ..now })
-    }
-
-    /// Evens out what moved since `at_first`, but for what is far, if that takes mesh and solid no farther from each other.
-    fn settle(
-        &mut self,
-        mesh: &mut HexMesh,
-        at_first: &[Point],
         came: Nearness,
+        share: f64,
+        room: Room<'_, Self>,
         monitor: &dyn Monitor,
     ) -> Result<Nearness, Cancelled> {
-        let mut moves: Vec<bool> = mesh.positions.iter().zip(at_first).map(|(p, q)| p != q).collect();
-        if !moves.contains(&true) {
-            return Ok(came);
-        }
         let before = mesh.positions.clone();
         self.survey.renew(mesh, monitor)?;
         let was = self.survey.distances.clone();
-        let far = self.on.faces.iter().zip(&was).filter(|(_, distance)| **distance > CLOSE * came.apart);
-        far.flat_map(|((quad, _), _)| quad).for_each(|n| moves[n.index()] = false);
-        let is_moved = |n: NodeId| moves[n.index()];
-        let (on, solid) = (self.on, self.survey.solid);
-        let sweeps = even(mesh, on, self.holds, solid, self.terms.evening, &is_moved, monitor)?;
-        let now = self.again(mesh, (&before, &was), 1.0, monitor)?;
-        Ok(nearer(came, Nearness { sweeps: sweeps + now.sweeps, ..now }, mesh, before))
+        let half = |range| Part { whole: monitor, stage: FITTING, range };
+        let room = room(self, mesh, &came.far, &half([0.0, 0.5]))?;
+        let now = near(mesh, self.on, self.holds, &mut self.survey, self.terms, &half([0.5, 1.0]))?;
+        self.survey.renew(mesh, monitor)?;
+        keep_nearer(mesh, &before, (&self.on.faces, &was, &self.survey.distances), share);
+        self.survey.renew(mesh, monitor)?;
+        let sweeps = came.sweeps + room + now.sweeps;
+        let apart = self.survey.farthest();
+        if apart > came.apart {
+            mesh.positions = before;
+            return Ok(Nearness { sweeps, ..came });
+        }
+        let far = far(mesh, self.on, self.holds, &self.survey, SHARE * apart);
+        Ok(Nearness { sweeps, apart, far, ..came })
     }
 }
+
+/// What gives room to nodes that are far. Returns the number of sweeps.
+type Room<'a, T> = &'a dyn Fn(&T, &mut HexMesh, &[bool], &dyn Monitor) -> Result<usize, Cancelled>;
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {

@@ -19,6 +19,7 @@ use crate::monitor::Part;
 use crate::optimize::{
     Evening, Free, Moved, Problem, Star, Weights, even_out, keep_positive, wake, worst_kept,
 };
+use crate::solid::SurfaceId;
 use crate::{Cancelled, Monitor, parallel};
 
 /// What is farther apart than this share of the farthest, and than so many edges (those there, or the mean of all if that
@@ -112,7 +113,7 @@ pub(super) fn near(
     let target = OnSolid::new(solid, &on.reduction);
     let mut came = Nearness { sweeps: 0, at_first: f64::INFINITY, apart: f64::INFINITY, far: Vec::new() };
     let mut best = Vec::new();
-    let mut worst = None;
+    let worst = quality(mesh).0.map_or(terms.fair, |worst| worst.min(terms.fair));
     for round in 0..=ROUNDS {
         let part = |from: f64, to: f64| Part {
             whole: monitor,
@@ -138,8 +139,6 @@ pub(super) fn near(
         let moves = |n: NodeId| came.far[n.index()];
         let mut problem = Problem::within(&mesh.positions, &mesh.hexes, &moves, monitor)?;
         let gaps = Apart::new(&problem, &on.faces, survey);
-        let worst_of_all = || quality(mesh).0.map_or(terms.fair, |worst| worst.min(terms.fair));
-        let worst = *worst.get_or_insert_with(worst_of_all);
         let places = Places { on, holds, target: &target, apart: gaps, worst, leave: terms.leave };
         let tries = places.try_all(&mut problem, &part(0.0, 0.7))?;
         problem.write_back(&mut mesh.positions);
@@ -169,6 +168,20 @@ pub(super) fn far(
     }
     let is_placed = |n: usize| holds[n] == Hold::Held && on.anchors[n].freedom() == 0;
     (0..is_far.len()).map(|n| is_far[n] && !is_placed(n)).collect()
+}
+
+/// Marks the nodes of those of the quads that are farther than this, or takes their marks.
+pub(super) fn mark(
+    marks: &mut [bool],
+    (faces, distances): (&[([NodeId; 4], SurfaceId)], &[f64]),
+    least: f64,
+    marked: bool,
+) {
+    for ((quad, _), &distance) in faces.iter().zip(distances) {
+        if distance > least {
+            quad.iter().for_each(|n| marks[n.index()] = marked);
+        }
+    }
 }
 
 /// Smooths what is inside around the nodes that moved. Returns the number of sweeps.

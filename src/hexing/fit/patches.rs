@@ -12,8 +12,8 @@ type Distances<'a> = (&'a [([NodeId; 4], SurfaceId)], &'a [f64], &'a [f64]);
 /// Takes nodes back to where they were `before`, unless no more than this share is left of what their patch was apart where it was
 /// farthest. A patch is what moved of cells that share such nodes.
 pub(super) fn keep_nearer(mesh: &mut HexMesh, before: &[Point], (faces, was, is): Distances, share: f64) {
-    let has_moved: Vec<bool> = mesh.positions.iter().zip(before).map(|(now, before)| now != before).collect();
-    let is_moved = |n: &&NodeId| has_moved[n.index()];
+    let positions = &mesh.positions;
+    let is_moved = |n: &&NodeId| positions[n.index()] != before[n.index()];
     let mut patches = Sets::new(before.len());
     for hex in &mesh.hexes {
         let mut moved = hex.iter().filter(is_moved).map(|n| n.index() as u32);
@@ -29,10 +29,10 @@ pub(super) fn keep_nearer(mesh: &mut HexMesh, before: &[Point], (faces, was, is)
             *patch = [patch[0].max(*was), patch[1].max(*is)];
         }
     }
-    for n in (0..before.len()).filter(|&n| has_moved[n]) {
+    for (n, (now, before)) in mesh.positions.iter_mut().zip(before).enumerate() {
         let [was, is] = farthest[patch_of(n)];
         if is > share * was {
-            mesh.positions[n] = before[n];
+            *now = *before;
         }
     }
 }

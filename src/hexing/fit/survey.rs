@@ -106,23 +106,25 @@ impl<'a> Survey<'a> {
 
     /// That of these quads alone, which ascend, and of what is nearest to them; it has looked, as this one has.
     pub(super) fn part(&self, quads: &[u32], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
-        let (mut node_of, mut quad_of) = (vec![NOWHERE; self.nodes.len()], vec![NOWHERE; self.quads.len()]);
-        (0..).zip(quads).for_each(|(k, &quad)| quad_of[quad as usize] = k);
-        quads.iter().flat_map(|&quad| self.quads[quad as usize]).for_each(|n| node_of[n as usize] = 0);
-        let nodes: Vec<usize> = (0..node_of.len()).filter(|&n| node_of[n] != NOWHERE).collect();
-        (0..).zip(&nodes).for_each(|(k, &n)| node_of[n] = k);
-        let is_near = |k: usize| quad_of[self.nearest[k].quad as usize] != NOWHERE;
-        let samples: Vec<usize> = (0..self.samples.len()).filter(|&k| is_near(k)).collect();
-        let nearest = samples.iter().map(|&k| self.nearest[k]);
+        let mut number = vec![NOWHERE; self.quads.len()];
+        (0..).zip(quads).for_each(|(k, &quad)| number[quad as usize] = k);
+        let (mut samples, mut nearest) = (Vec::new(), Vec::new());
+        for (&sample, &near) in self.samples.iter().zip(&self.nearest) {
+            let quad = number[near.quad as usize];
+            if quad != NOWHERE {
+                samples.push(sample);
+                nearest.push(NearestTo { quad, ..near });
+            }
+        }
         let mut part = Self {
-            samples: samples.iter().map(|&k| self.samples[k]).collect(),
-            nearest: nearest.map(|near| NearestTo { quad: quad_of[near.quad as usize], ..near }).collect(),
+            samples,
+            nearest,
             balls: Vec::new(),
-            nodes: nodes.iter().map(|&n| self.nodes[n]).collect(),
-            places: nodes.iter().map(|&n| self.places[n]).collect(),
-            of_nodes: nodes.iter().map(|&n| self.of_nodes[n]).collect(),
-            quads: quads.iter().map(|&q| self.quads[q as usize].map(|n| node_of[n as usize])).collect(),
-            of_mesh: quads.iter().map(|&q| self.of_mesh[q as usize]).collect(),
+            nodes: self.nodes.clone(),
+            places: self.places.clone(),
+            of_nodes: self.of_nodes.clone(),
+            quads: quads.iter().map(|&quad| self.quads[quad as usize]).collect(),
+            of_mesh: quads.iter().map(|&quad| self.of_mesh[quad as usize]).collect(),
             of_solid: Bins::default(),
             distances: Vec::new(),
             ..*self
@@ -196,6 +198,7 @@ impl<'a> Survey<'a> {
     }
 
     /// The greatest distance of all.
+    #[inline(never)]
     pub(super) fn farthest(&self) -> f64 {
         self.distances.iter().copied().fold(0.0, f64::max)
     }
