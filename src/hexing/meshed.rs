@@ -1,7 +1,7 @@
 //! A mesh of a body: how it comes nearer to its solid, if it is worth it, and what is done once it is kept.
 
 use super::correspondence::Correspondence;
-use super::fit::{FINISHED, FINISHING, FitOptions, Fitted, NEARER, Survey, quality};
+use super::fit::{ApproachOptions, FINISHED, FINISHING, Fitted, NEARER, Survey, quality};
 use super::report::{FitCounts, MeshedReport};
 use super::separate::separate;
 use crate::geometry::Point;
@@ -18,8 +18,9 @@ const ENOUGH: f64 = 0.55;
 /// little: it is brought as near as the first, with cells that stay good.
 const LITTLE: [f64; 2] = [0.002, 0.003];
 
-/// So many rounds in vain are enough for that.
-const PATIENCE: usize = 2;
+/// An approach ends after so many rounds in vain, and one that lacks little.
+const PATIENCE: usize = 5;
+const LITTLE_PATIENCE: usize = 2;
 
 /// A mesh of a body and where it stands for what.
 #[derive(Clone, Debug)]
@@ -34,7 +35,7 @@ pub(super) struct Meshed {
 /// How a mesh is brought nearer to its solid.
 #[derive(Clone, Debug)]
 pub(super) struct Approach {
-    options: FitOptions,
+    options: ApproachOptions,
     /// It counts where they are so near then, in model units, or much nearer than they were.
     near: f64,
 }
@@ -44,13 +45,14 @@ impl Approach {
     pub(super) fn new(max_distance: Option<f64>, near: f64, fair: f64) -> Self {
         let enough = near * if max_distance.is_some() { ENOUGH_ASKED } else { ENOUGH };
         let max_distance = max_distance.unwrap_or(f64::INFINITY);
-        Self { options: FitOptions { max_distance, near: enough, fair, ..FitOptions::default() }, near }
+        Self { options: ApproachOptions { near: enough, fair, patience: PATIENCE, max_distance }, near }
     }
 
     /// One for a mesh that is kept, where it lacks little: cells stay good.
     pub(super) fn of_little(apart: f64, diagonal: f64) -> Option<Self> {
         let [near, far] = LITTLE.map(|share| share * diagonal);
-        let options = FitOptions { near, patience: PATIENCE, ..FitOptions::default() };
+        let (fair, patience, max_distance) = (f64::INFINITY, LITTLE_PATIENCE, f64::INFINITY);
+        let options = ApproachOptions { near, fair, patience, max_distance };
         (near < apart && apart <= far).then_some(Self { options, near })
     }
 }

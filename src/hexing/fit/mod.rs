@@ -58,6 +58,7 @@ use crate::monitor::Part;
 use crate::optimize::{Evening, OptimizeOptions, Problem, smooth};
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor, Stage, parallel};
+pub use approach::ApproachOptions;
 use even::even;
 pub(super) use finish::{FINISHED, FINISHING};
 use holds::{Hold, Holds};
@@ -128,12 +129,6 @@ pub struct FitOptions {
     /// How far mesh and solid may be from each other, in model units: for better cells nodes leave where they belong by
     /// half of that at most, if they are not farther already.
     pub max_distance: f64,
-    /// How near mesh and solid are brought to each other by [`Fitted::approach`], in model units.
-    pub near: f64,
-    /// After so many rounds in vain that ends.
-    pub patience: usize,
-    /// The least scaled Jacobian that this leaves in cells that have a greater one.
-    pub fair: f64,
 }
 
 impl Default for FitOptions {
@@ -147,9 +142,6 @@ impl Default for FitOptions {
                 ..Default::default()
             },
             max_distance: f64::INFINITY,
-            near: f64::INFINITY,
-            patience: 5,
-            fair: GOOD,
         }
     }
 }

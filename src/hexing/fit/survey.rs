@@ -322,7 +322,7 @@ pub(super) fn quads(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)]) -> Vec<[
 }
 
 /// The mean length of the sides of all quads.
-pub(super) fn mean_edge(quads: &[[Point; 4]]) -> f64 {
+fn mean_edge(quads: &[[Point; 4]]) -> f64 {
     quads.iter().map(mean_side).sum::<f64>() / quads.len() as f64
 }
 
