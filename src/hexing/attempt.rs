@@ -3,7 +3,7 @@
 use super::background::{Background, Failure, Missed, OctreeMesh};
 use super::core::{Core, CoreOptions, core, whole_core};
 use super::correspondence::{Correspondence, correspond, correspond_alike};
-use super::fit::{FitOptions, fit};
+use super::fit::{FitOptions, Survey, fit};
 use super::ground::{Plan, Site};
 use super::merit::{Bar, FAIR, loses_some};
 use super::meshed::{Approach, Meshed, distances};
@@ -126,25 +126,28 @@ impl Draft {
         let may_approach = core.report.off_kind() == 0
             && if options.max_distance.is_some() { !misses_features() } else { fitted.report.mean >= FAIR };
         let apart = fitted.report.apart;
+        let is_hopeless = options.max_distance.is_none() && apart > HOPELESS * near;
         let mut meshed = Meshed { mesh, on, fitted, approach: None };
+        // What a survey sees is too far need not be looked at before that is mended.
+        if let Some(mut survey) = survey.filter(|_| may_approach && apart > near && !is_hopeless) {
+            meshed.approach(&mut survey, &approach, monitor)?;
+        }
         let look = |meshed: &Meshed| -> Result<(Distances, Vec<Failure>), Cancelled> {
             let Meshed { mesh, on, .. } = meshed;
             let (distance, far) = distances(mesh, on, solid, too_far, monitor)?;
             Ok((distance, misses(site, kind, &core, &on.reduction, far, &cells)))
         };
-        let is_hopeless = options.max_distance.is_none() && apart > HOPELESS * near;
-        // What a survey sees is too far need not be looked at before that is mended.
-        let survey = survey.filter(|_| may_approach && apart > near && !is_hopeless);
-        let mut seen = if survey.is_none() { Some(look(&meshed)?) } else { None };
-        let is_far = |failures: &[Failure]| failures.iter().any(|failure| failure.missed == Missed::Far);
-        if may_approach && seen.as_ref().is_none_or(|(_, failures)| is_far(failures)) {
+        let (mut distance, mut failures) = look(&meshed)?;
+        if may_approach && failures.iter().any(|failure| failure.missed == Missed::Far) {
             if is_hopeless {
                 meshed.approach = Some(approach);
-            } else if meshed.approach(solid, survey, &approach, monitor)? {
-                seen = None;
+            } else if apart <= near {
+                let mut survey = Survey::new(&meshed.mesh, &meshed.on.faces, solid);
+                if meshed.approach(&mut survey, &approach, monitor)? {
+                    (distance, failures) = look(&meshed)?;
+                }
             }
         }
-        let (distance, mut failures) = seen.map_or_else(|| look(&meshed), Ok)?;
         let may_stay = matches!(kind, Background::Swept | Background::Shell)
             && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
         // Smaller cells elsewhere bring them no nearer where none may be smaller.

@@ -18,9 +18,12 @@ const ENOUGH: f64 = 0.55;
 /// little: it is brought as near as the first, with cells that stay good.
 const LITTLE: [f64; 2] = [0.002, 0.003];
 
+/// Cells that stay good are no price: so much may be left then.
+const LITTLE_LEFT: f64 = 0.98;
+
 /// An approach ends after so many rounds in vain, and one that lacks little.
 const PATIENCE: usize = 5;
-const LITTLE_PATIENCE: usize = 2;
+const LITTLE_PATIENCE: usize = 4;
 
 /// A mesh of a body and where it stands for what.
 #[derive(Clone, Debug)]
@@ -36,8 +39,9 @@ pub(super) struct Meshed {
 #[derive(Clone, Debug)]
 pub(super) struct Approach {
     options: ApproachOptions,
-    /// It counts where they are so near then, in model units, or much nearer than they were.
+    /// It counts where they are so near then, in model units, or no more than such a share is left of what they were apart.
     near: f64,
+    left: f64,
 }
 
 impl Approach {
@@ -45,7 +49,8 @@ impl Approach {
     pub(super) fn new(max_distance: Option<f64>, near: f64, fair: f64) -> Self {
         let enough = near * if max_distance.is_some() { ENOUGH_ASKED } else { ENOUGH };
         let max_distance = max_distance.unwrap_or(f64::INFINITY);
-        Self { options: ApproachOptions { near: enough, fair, patience: PATIENCE, max_distance }, near }
+        let options = ApproachOptions { near: enough, fair, patience: PATIENCE, max_distance };
+        Self { options, near, left: NEARER }
     }
 
     /// One for a mesh that is kept, where it lacks little: cells stay good.
@@ -53,7 +58,7 @@ impl Approach {
         let [near, far] = LITTLE.map(|share| share * diagonal);
         let (fair, patience, max_distance) = (f64::INFINITY, LITTLE_PATIENCE, f64::INFINITY);
         let options = ApproachOptions { near, fair, patience, max_distance };
-        (near < apart && apart <= far).then_some(Self { options, near })
+        (near < apart && apart <= far).then_some(Self { options, near, left: LITTLE_LEFT })
     }
 }
 
@@ -66,7 +71,8 @@ impl Meshed {
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
         if let Some(approach) = self.approach.take() {
-            self.approach(solid, None, &approach, monitor)?;
+            let mut survey = Survey::new(&self.mesh, &self.on.faces, solid);
+            self.approach(&mut survey, &approach, monitor)?;
         }
         let Self { mesh, on, fitted, .. } = self;
         let mut drawn_in = Vec::new();
@@ -93,15 +99,14 @@ impl Meshed {
     /// Brings it nearer to the solid, unless that brings little. Was it?
     pub(super) fn approach(
         &mut self,
-        solid: &SolidModel,
-        survey: Option<Survey>,
-        Approach { options, near }: &Approach,
+        survey: &mut Survey,
+        Approach { options, near, left }: &Approach,
         monitor: &dyn Monitor,
     ) -> Result<bool, Cancelled> {
         let Self { mesh, on, fitted, .. } = self;
         let before = mesh.positions.clone();
-        let report = fitted.approach(mesh, on, (solid, survey), options, monitor)?;
-        let is_nearer = report.apart <= *near || report.apart <= NEARER * fitted.report.apart;
+        let report = fitted.approach(mesh, on, survey, options, monitor)?;
+        let is_nearer = report.apart <= *near || report.apart <= left * fitted.report.apart;
         if is_nearer {
             fitted.report = report;
         } else {

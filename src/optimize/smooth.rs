@@ -71,6 +71,9 @@ const RINGS_SINCE: usize = 2;
 const RISING: f64 = 3e-4;
 const MORE: usize = 2;
 
+/// For the mean no scaled Jacobian falls below this, however bad the worst of all is.
+const KEPT: f64 = 0.36;
+
 /// The worst cells are those below the scaled Jacobian that this share of the cells is below, or this many.
 const WORST_SHARE: f64 = 0.003;
 const WORST: usize = 100;
@@ -123,6 +126,7 @@ pub(crate) fn even_out(
     let Evening { weights, target, sweeps } = evening;
     let more = sweeps / 2;
     let mut rounds = Rounds::new(problem, guide, sweeps + MORE * more, monitor)?;
+    rounds.least = KEPT;
     rounds.make(weights, target, sweeps)?;
     for _ in 0..MORE {
         if rounds.rise > RISING {
@@ -141,6 +145,8 @@ struct Rounds<'a> {
     jacobians: Vec<f64>,
     /// Is a cell looked at? All are, if that is not told.
     looked_at: Option<Vec<bool>>,
+    /// No scaled Jacobian falls below this, nor below the worst of all, if that is greater.
+    least: f64,
     /// By how much the last round raised the mean.
     rise: f64,
     /// How many rounds were made, how many might have been, and how many there may be.
@@ -157,8 +163,9 @@ impl<'a> Rounds<'a> {
         monitor: &'a dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let jacobians = problem.scaled_jacobians(monitor)?;
-        let (looked_at, rise) = (None, 0.0);
-        Ok(Self { problem, guide, monitor, jacobians, looked_at, rise, done: 0, passed: 0, planned })
+        let (looked_at, least, rise) = (None, 0.0, 0.0);
+        let [done, passed] = [0; 2];
+        Ok(Self { problem, guide, monitor, jacobians, looked_at, least, rise, done, passed, planned })
     }
 
     /// Moves the nodes of the cells below the target, as often as that still does something.
@@ -179,7 +186,7 @@ impl<'a> Rounds<'a> {
             monitor.checkpoint(SMOOTHING, (passed + round) as f64 / planned as f64)?;
             // Nobody looks at who is awake after the last round.
             let asleep = if round + 1 < sweeps { ASLEEP } else { f64::INFINITY };
-            let rules = Rules { guide, weights, eps: 0.0, floor: Some(self.worst()), asleep };
+            let rules = Rules { guide, weights, eps: 0.0, floor: Some(self.worst().max(self.least)), asleep };
             let round =
                 |problem: &mut Problem, awake: &mut [bool]| sweep(problem, rules, &allowed, awake, monitor);
             let (changed, moved) = keep_positive(self.problem, &mut awake, monitor, round)?;
@@ -251,7 +258,8 @@ pub(crate) fn keep_positive(
 
 #[cfg(test)]
 mod tests {
-    use super::super::Free;
+    use super::super::guide::Pull;
+    use super::super::{Free, Symmetric};
     use super::*;
     use crate::Silent;
     use crate::geometry::{Aabb, Point};
@@ -291,6 +299,48 @@ mod tests {
                 after.worst()
             );
         }
+    }
+
+    /// Draws all nodes aside.
+    struct Aside;
+
+    impl Guide for Aside {
+        fn tangent(&self, _: NodeId, _: Point) -> Symmetric {
+            Symmetric::IDENTITY
+        }
+
+        fn project(&self, _: NodeId, p: Point) -> Point {
+            p
+        }
+
+        fn pull(&self, _: NodeId, p: Point, _: f64) -> Option<Pull> {
+            Some(Pull { to: p + Point::ONE, weight: Symmetric::IDENTITY * 1e3 })
+        }
+    }
+
+    /// The middle of a block is drawn aside; another block leans so far that its cells are much worse.
+    #[test]
+    fn no_fair_cell_becomes_worse_than_fair_while_all_is_evened_out() {
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 8 };
+        let block = hex_grid(Aabb { min: Point::ZERO, max: Point::splat(2.0) }, &options).unwrap();
+        let nodes = block.positions.len();
+        let leaning = block.positions.iter().map(|&p| p + Point::X * (12.0 * p.z));
+        let positions: Vec<Point> = block.positions.iter().copied().chain(leaning).collect();
+        let other = block.hexes.iter().map(|hex| hex.map(|n| NodeId::new(n.index() + nodes)));
+        let hexes: Vec<_> = block.hexes.iter().copied().chain(other).collect();
+        let is_middle = |n: NodeId| block.positions[n.index() % nodes] == Point::ONE;
+        let mut problem = Problem::new(&positions, &hexes, &is_middle);
+        problem.points[0] += Point::splat(0.1);
+        let worst = |problem: &Problem| {
+            let jacobians = problem.scaled_jacobians(&Silent).unwrap();
+            let (block, other) = jacobians.split_at(block.hexes.len());
+            [block, other].map(|jacobians| jacobians.iter().copied().fold(1.0, f64::min))
+        };
+        let [before, other] = worst(&problem);
+        assert!(before > 0.7 && other < 0.1);
+        even_out(&mut problem, &Aside, Evening::ALL[0], &Silent).unwrap();
+        let [after, _] = worst(&problem);
+        assert!((KEPT..KEPT + 0.02).contains(&after), "{after}");
     }
 
     /// All of a bar could be better; since it was smoothed a node of one end was moved.

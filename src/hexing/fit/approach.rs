@@ -18,7 +18,6 @@ use super::{APPROACH, FITTING, FitReport, Fitted, GOOD, off, quality};
 use crate::mesh::{HexMesh, NodeId};
 use crate::monitor::Part;
 use crate::optimize::{Evening, smooth};
-use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
 /// A way to make room: so many rings of cells around what is far are evened out, or only the worst of them smoothed; what is far
@@ -44,8 +43,8 @@ const ROUNDS: usize = 12;
 /// A round, or a place in one, brought something if they are nearer than before by this share.
 const GAIN: f64 = 0.01;
 
-/// Rings of cells around what is or may come to be far that are looked at meanwhile.
-const RINGS: usize = 6;
+/// Rings of cells around what is farther than enough within which nodes come nearer, and around those that are looked at meanwhile.
+const RINGS: [usize; 2] = [12, 6];
 
 /// What is farther than this share of the farthest is not evened out in the end.
 const CLOSE: f64 = 0.6;
@@ -70,7 +69,7 @@ pub struct ApproachOptions {
 
 impl Fitted {
     /// Brings mesh and solid as near to each other as the `options` say, as far as that is possible with cells that they call
-    /// fair: `mesh` and `on` are as the fit left them, and the `survey`, if it was kept. Returns what came of the fit with that.
+    /// fair: `mesh` and `on` are as the fit left them, and the `survey` is one of them. Returns what came of the fit with that.
     ///
     /// # Errors
     /// [`Cancelled`] when the monitor says so; nodes that have moved by then stay where they are.
@@ -78,46 +77,57 @@ impl Fitted {
         &self,
         mesh: &mut HexMesh,
         on: &Correspondence,
-        (solid, survey): (&SolidModel, Option<Survey>),
+        survey: &mut Survey,
         options: &ApproachOptions,
         monitor: &dyn Monitor,
     ) -> Result<FitReport, Cancelled> {
         let &ApproachOptions { max_distance, near: enough, fair, patience } = options;
         let evening = Evening::ALL[0];
         let terms = Terms { leave: 0.5 * max_distance, evening, enough, fair: fair.min(GOOD) };
-        let mut survey = survey.unwrap_or_else(|| Survey::new(mesh, &on.faces, solid));
         survey.renew(mesh, monitor)?;
         let mut sweeps = self.report.sweeps;
         if survey.farthest() > enough {
-            let quads = around(mesh, on, &survey, SHARE * enough, monitor)?;
+            let (quads, heeded) = around(mesh, on, survey, enough, monitor)?;
             let faces = quads.iter().map(|&k| on.faces[k as usize]).collect();
             let part = Correspondence { faces, ..on.clone() };
-            let survey_of_part = survey.part(&quads, monitor)?;
+            let survey_of_part = survey.part(&quads, heeded, monitor)?;
             let mut there = There { on: &part, holds: &self.holds, terms, survey: survey_of_part };
             sweeps += there.approach(mesh, patience, monitor)?;
             survey.renew(mesh, monitor)?;
         }
         let apart = survey.farthest();
-        let off = off(mesh, on, &self.holds, &OnSolid::new(solid, &on.reduction));
+        let off = off(mesh, on, &self.holds, &OnSolid::new(survey.solid, &on.reduction));
         let (worst, mean) = quality(mesh);
         let taken_back = self.report.taken_back;
         Ok(FitReport { taken_back, sweeps, off, worst, mean, inverted: Vec::new(), apart })
     }
 }
 
-/// The quads around those that are farther from the solid than `least`, ascending.
+/// The quads around those that are farther from the solid than `least`, those within which nodes come nearer first, and how many
+/// these are.
 fn around(
     mesh: &HexMesh,
     on: &Correspondence,
     survey: &Survey,
     least: f64,
     monitor: &dyn Monitor,
-) -> Result<Vec<u32>, Cancelled> {
+) -> Result<(Vec<u32>, usize), Cancelled> {
     let mut is_near = vec![false; mesh.positions.len()];
     mark(&mut is_near, (&on.faces, &survey.distances), least, true);
-    widen(mesh, &mut is_near, RINGS, monitor)?;
-    let quads = (0..).zip(&on.faces).filter(|(_, (quad, _))| quad.iter().all(|n| is_near[n.index()]));
-    Ok(quads.map(|(k, _)| k).collect())
+    let mut quads: Vec<u32> = Vec::new();
+    let mut taken = vec![false; on.faces.len()];
+    let mut heeded = 0;
+    for rings in RINGS {
+        heeded = quads.len();
+        widen(mesh, &mut is_near, rings, monitor)?;
+        for (k, (quad, _)) in on.faces.iter().enumerate() {
+            if !taken[k] && quad.iter().all(|n| is_near[n.index()]) {
+                taken[k] = true;
+                quads.push(k as u32);
+            }
+        }
+    }
+    Ok((quads, heeded))
 }
 
 /// What is near enough to what is far to be looked at.
@@ -260,7 +270,8 @@ mod tests {
         assert!(farthest(&mesh, &on, &solid) > 0.07);
         let fitted = Fitted { report: FitReport::default(), holds: held(&on) };
         let options = ApproachOptions { near, fair, patience: 5, max_distance: f64::INFINITY };
-        let report = fitted.approach(&mut mesh, &on, (&solid, None), &options, &Silent).unwrap();
+        let mut survey = Survey::new(&mesh, &on.faces, &solid);
+        let report = fitted.approach(&mut mesh, &on, &mut survey, &options, &Silent).unwrap();
         assert_eq!((report.worst, report.mean), quality(&mesh));
         assert_eq!(report.off, []);
         (farthest(&mesh, &on, &solid), report.worst.unwrap(), report.sweeps)

@@ -150,7 +150,7 @@ pub(super) fn near(
     Ok(came)
 }
 
-/// The nodes of the quads that are farther than `LEAST` edges and `least`, if they may move.
+/// The nodes of the quads that are heeded and farther than `LEAST` edges and `least`, if they may move.
 pub(super) fn far(
     mesh: &HexMesh,
     on: &Correspondence,
@@ -160,7 +160,8 @@ pub(super) fn far(
 ) -> Vec<bool> {
     let quads = quads(mesh, &on.faces);
     let mut is_far = vec![false; mesh.positions.len()];
-    for (((quad, _), places), &distance) in on.faces.iter().zip(&quads).zip(&survey.distances) {
+    let heeded = survey.distances.iter().take(survey.heeded);
+    for (((quad, _), places), &distance) in on.faces.iter().zip(&quads).zip(heeded) {
         let edge = mean_side(places).max(survey.edge);
         if distance > least.max(LEAST * edge) {
             quad.iter().for_each(|n| is_far[n.index()] = true);
@@ -391,7 +392,7 @@ mod tests {
         let quads: Vec<u32> =
             (0..on.faces.len() as u32).filter(|&k| inner(&on.faces[k as usize].0)).collect();
         assert!(quads.len() > 10 && 2 * quads.len() < on.faces.len());
-        let mut part = all.part(&quads, &Silent).unwrap();
+        let mut part = all.part(&quads, quads.len(), &Silent).unwrap();
         let seen = |all: &Survey| quads.iter().map(|&k| all.distances[k as usize]).collect::<Vec<_>>();
         assert_eq!(part.distances, seen(&all));
         let far = mesh.bounds().max.y - 1e-9;

@@ -50,11 +50,17 @@ pub struct Survey<'a> {
     of_solid: Bins,
     /// The greatest distance at each quad, either way.
     pub(super) distances: Vec<f64>,
+    /// Of so many quads, the first, the nodes are brought nearer; of the others it is only seen how far they are.
+    pub(super) heeded: usize,
 }
 
 impl<'a> Survey<'a> {
     /// One that has not looked yet.
-    pub(super) fn new(mesh: &HexMesh, faces: &[([NodeId; 4], SurfaceId)], solid: &'a SolidModel) -> Self {
+    pub(in super::super) fn new(
+        mesh: &HexMesh,
+        faces: &[([NodeId; 4], SurfaceId)],
+        solid: &'a SolidModel,
+    ) -> Self {
         let mut number = vec![None; mesh.positions.len()];
         faces.iter().for_each(|(quad, _)| quad.iter().for_each(|n| number[n.index()] = Some(0)));
         let mut nodes = Vec::new();
@@ -76,6 +82,7 @@ impl<'a> Survey<'a> {
             of_mesh: Vec::new(),
             of_solid: Bins::default(),
             distances: Vec::new(),
+            heeded: faces.len(),
         }
     }
 
@@ -104,8 +111,13 @@ impl<'a> Survey<'a> {
         self.rank(monitor)
     }
 
-    /// That of these quads alone, which ascend, and of what is nearest to them; it has looked, as this one has.
-    pub(super) fn part(&self, quads: &[u32], monitor: &dyn Monitor) -> Result<Self, Cancelled> {
+    /// That of these quads alone, of which so many are heeded, and of what is nearest to them; it has looked, as this one has.
+    pub(super) fn part(
+        &self,
+        quads: &[u32],
+        heeded: usize,
+        monitor: &dyn Monitor,
+    ) -> Result<Self, Cancelled> {
         let mut number = vec![NOWHERE; self.quads.len()];
         (0..).zip(quads).for_each(|(k, &quad)| number[quad as usize] = k);
         let (mut samples, mut nearest) = (Vec::new(), Vec::new());
@@ -127,6 +139,7 @@ impl<'a> Survey<'a> {
             of_mesh: quads.iter().map(|&quad| self.of_mesh[quad as usize]).collect(),
             of_solid: Bins::default(),
             distances: Vec::new(),
+            heeded,
             ..*self
         };
         part.enclose(monitor)?;
