@@ -254,7 +254,10 @@ mod tests {
     use super::super::testing::{farthest, held, house};
     use super::*;
     use crate::Silent;
+    use crate::geometry::Point;
     use crate::hexing::correspondence::correspond;
+    use crate::mesh::{GridOptions, hex_grid};
+    use crate::solid::testing::{cuboid, solid};
 
     /// Distance, worst cell and sweeps.
     type Came = (f64, f64, usize);
@@ -299,5 +302,35 @@ mod tests {
         let (alone, _, few) = approached(0.65, 0.1, GOOD);
         let (with_room, best, many) = approached(0.65, 0.03, GOOD);
         assert!(with_room < 0.95 * alone && best >= GOOD && many > few, "{with_room} {alone} {best}");
+    }
+
+    /// A node at the end of a bar is off.
+    #[test]
+    fn what_is_heeded_is_near_what_is_too_far_and_more_is_seen() {
+        let solid = solid(&cuboid([40, 1, 1]));
+        let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: true, max_hexes: 100 };
+        let mut mesh = hex_grid(solid.bounds(), &options).unwrap();
+        let on = correspond(&mesh, &solid, &Silent).unwrap();
+        let end = mesh.positions.iter_mut().find(|p| **p == Point::ZERO).unwrap();
+        end.y = -0.2;
+        let mut survey = Survey::new(&mesh, &on.faces, &solid);
+        survey.renew(&mesh, &Silent).unwrap();
+        let (quads, heeded) = around(&mesh, &on, &survey, 0.1, &Silent).unwrap();
+        let ends_at = |quads: &[u32]| {
+            let nodes = quads.iter().flat_map(|&k| on.faces[k as usize].0);
+            nodes.map(|n| mesh.positions[n.index()].x).fold(0.0, f64::max)
+        };
+        // The quads that are too far end at 1.
+        assert_eq!(ends_at(&quads[..heeded]), (1 + RINGS[0]) as f64);
+        assert_eq!(ends_at(&quads), (1 + RINGS[0] + RINGS[1]) as f64);
+        let mut part = survey.part(&quads, heeded, &Silent).unwrap();
+        let faces = quads.iter().map(|&k| on.faces[k as usize]).collect();
+        let part_of = Correspondence { faces, ..on.clone() };
+        let farthest = survey.farthest();
+        let is_far =
+            |survey: &Survey| far(&mesh, &part_of, &held(&on), survey, SHARE * farthest).contains(&true);
+        assert!(is_far(&part));
+        part.heeded = 0;
+        assert!(!is_far(&part) && part.farthest() == farthest);
     }
 }
