@@ -128,26 +128,29 @@ impl Draft {
         let apart = fitted.report.apart;
         let is_hopeless = options.max_distance.is_none() && apart > HOPELESS * near;
         let mut meshed = Meshed { mesh, on, fitted, approach: None };
-        // What a survey sees is too far need not be looked at before that is mended.
-        if let Some(mut survey) = survey.filter(|_| may_approach && apart > near && !is_hopeless) {
-            meshed.approach(&mut survey, &approach, monitor)?;
-        }
         let look = |meshed: &Meshed| -> Result<(Distances, Vec<Failure>), Cancelled> {
             let Meshed { mesh, on, .. } = meshed;
             let (distance, far) = distances(mesh, on, solid, too_far, monitor)?;
             Ok((distance, misses(site, kind, &core, &on.reduction, far, &cells)))
         };
-        let (mut distance, mut failures) = look(&meshed)?;
-        if may_approach && failures.iter().any(|failure| failure.missed == Missed::Far) {
+        // What a survey sees is too far need not be looked at before that is mended.
+        let mut survey = survey.filter(|_| may_approach && apart > near && !is_hopeless);
+        let (distance, mut failures) = loop {
+            let is_mended = survey.is_some();
+            if let Some(mut survey) = survey.take() {
+                meshed.approach(&mut survey, &approach, monitor)?;
+            }
+            let seen = look(&meshed)?;
+            let is_far = seen.1.iter().any(|failure| failure.missed == Missed::Far);
+            if is_mended || !may_approach || !is_far {
+                break seen;
+            }
             if is_hopeless {
                 meshed.approach = Some(approach);
-            } else if apart <= near {
-                let mut survey = Survey::new(&meshed.mesh, &meshed.on.faces, solid);
-                if meshed.approach(&mut survey, &approach, monitor)? {
-                    (distance, failures) = look(&meshed)?;
-                }
+                break seen;
             }
-        }
+            survey = Some(Survey::new(&meshed.mesh, &meshed.on.faces, solid));
+        };
         let may_stay = matches!(kind, Background::Swept | Background::Shell)
             && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
         // Smaller cells elsewhere bring them no nearer where none may be smaller.

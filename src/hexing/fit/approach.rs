@@ -114,18 +114,15 @@ fn around(
 ) -> Result<(Vec<u32>, usize), Cancelled> {
     let mut is_near = vec![false; mesh.positions.len()];
     mark(&mut is_near, (&on.faces, &survey.distances), least, true);
-    let mut quads: Vec<u32> = Vec::new();
-    let mut taken = vec![false; on.faces.len()];
-    let mut heeded = 0;
+    let (mut quads, mut heeded) = (Vec::new(), 0);
+    let mut taken = vec![false; mesh.positions.len()];
     for rings in RINGS {
         heeded = quads.len();
         widen(mesh, &mut is_near, rings, monitor)?;
-        for (k, (quad, _)) in on.faces.iter().enumerate() {
-            if !taken[k] && quad.iter().all(|n| is_near[n.index()]) {
-                taken[k] = true;
-                quads.push(k as u32);
-            }
-        }
+        let is_in = |quad: &[NodeId; 4], marks: &[bool]| quad.iter().all(|n| marks[n.index()]);
+        let new = (0..).zip(&on.faces).filter(|(_, (quad, _))| is_in(quad, &is_near) && !is_in(quad, &taken));
+        quads.extend(new.map(|(k, _)| k));
+        taken.clone_from(&is_near);
     }
     Ok((quads, heeded))
 }
