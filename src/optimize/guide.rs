@@ -31,6 +31,25 @@ impl Guide for Free {
     }
 }
 
+/// All nodes go anywhere, and are drawn from where they are to where this tells, with this weight.
+#[cfg(test)]
+pub(crate) struct DrawnTo(pub(crate) fn(Point) -> Point, pub(crate) f64);
+
+#[cfg(test)]
+impl Guide for DrawnTo {
+    fn tangent(&self, _: NodeId, _: Point) -> Symmetric {
+        Symmetric::IDENTITY
+    }
+
+    fn project(&self, _: NodeId, p: Point) -> Point {
+        p
+    }
+
+    fn pull(&self, _: NodeId, p: Point, _: f64) -> Option<Pull> {
+        Some(Pull { to: self.0(p), weight: Symmetric::IDENTITY * self.1 })
+    }
+}
+
 /// A quadratic energy that draws a node: (p - to)^T weight (p - to).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pull {

@@ -258,8 +258,8 @@ pub(crate) fn keep_positive(
 
 #[cfg(test)]
 mod tests {
-    use super::super::guide::Pull;
-    use super::super::{Free, Symmetric};
+    use super::super::Free;
+    use super::super::guide::DrawnTo;
     use super::*;
     use crate::Silent;
     use crate::geometry::{Aabb, Point};
@@ -301,23 +301,6 @@ mod tests {
         }
     }
 
-    /// Draws all nodes aside.
-    struct Aside;
-
-    impl Guide for Aside {
-        fn tangent(&self, _: NodeId, _: Point) -> Symmetric {
-            Symmetric::IDENTITY
-        }
-
-        fn project(&self, _: NodeId, p: Point) -> Point {
-            p
-        }
-
-        fn pull(&self, _: NodeId, p: Point, _: f64) -> Option<Pull> {
-            Some(Pull { to: p + Point::ONE, weight: Symmetric::IDENTITY * 1e3 })
-        }
-    }
-
     /// The middle of a block is drawn aside; another block leans so far that its cells are much worse.
     #[test]
     fn no_fair_cell_becomes_worse_than_fair_while_all_is_evened_out() {
@@ -338,7 +321,8 @@ mod tests {
         };
         let [before, other] = worst(&problem);
         assert!(before > 0.7 && other < 0.1);
-        even_out(&mut problem, &Aside, Evening::ALL[0], &Silent).unwrap();
+        let aside = DrawnTo(|p| p + Point::ONE, 1e3);
+        even_out(&mut problem, &aside, Evening::ALL[0], &Silent).unwrap();
         let [after, _] = worst(&problem);
         assert!((KEPT..KEPT + 0.02).contains(&after), "{after}");
     }

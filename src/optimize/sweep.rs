@@ -240,28 +240,12 @@ fn newton(energy: Expansion, tangent: Symmetric, size: f64) -> Option<Point> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::guide::DrawnTo;
     use super::*;
     use crate::Silent;
     use crate::geometry::Aabb;
     use crate::mesh::quality::aspect;
     use crate::mesh::{GridOptions, NodeId, hex_grid};
-
-    /// Draws all nodes to the plane z = 0.
-    struct ToPlane;
-
-    impl Guide for ToPlane {
-        fn tangent(&self, _: NodeId, _: Point) -> Symmetric {
-            Symmetric::IDENTITY
-        }
-
-        fn project(&self, _: NodeId, p: Point) -> Point {
-            p
-        }
-
-        fn pull(&self, _: NodeId, p: Point, _: f64) -> Option<Pull> {
-            Some(Pull { to: Point::new(p.x, p.y, 0.0), weight: Symmetric::IDENTITY * 100.0 })
-        }
-    }
 
     /// Of two layers of cubes the nodes between are drawn to the bottom, with an energy that sees angles alone: those stay
     /// right, however flat the lower layer gets.
@@ -269,11 +253,12 @@ mod tests {
     fn cells_get_no_flatter_than_the_floor_allows() {
         let options = GridOptions { spacing: 1.0, margin: 0.0, fitted: false, max_hexes: 100 };
         let mesh = hex_grid(Aabb { min: Point::ZERO, max: Point::new(3.0, 3.0, 2.0) }, &options).unwrap();
+        let to_plane = DrawnTo(|p| p.with_z(0.0), 100.0);
         let flattest = |floor: Option<f64>| {
             let is_between = |n: NodeId| mesh.positions[n.index()].z == 1.0;
             let mut problem = Problem::new(&mesh.positions, &mesh.hexes, &is_between);
             let weights = Weights { doublings: 0, mu: 1.0 };
-            let rules = Rules { guide: &ToPlane, weights, eps: 0.0, floor, asleep: ASLEEP };
+            let rules = Rules { guide: &to_plane, weights, eps: 0.0, floor, asleep: ASLEEP };
             for _ in 0..40 {
                 let mut awake = vec![true; problem.movable()];
                 sweep(&mut problem, rules, &awake.clone(), &mut awake, &Silent).unwrap();
