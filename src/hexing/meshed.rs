@@ -96,23 +96,22 @@ impl Meshed {
         Ok(())
     }
 
-    /// Brings it nearer to the solid, unless that brings little. Was it?
+    /// Brings it nearer to the solid, unless that brings little.
     pub(super) fn approach(
         &mut self,
         survey: &mut Survey,
         Approach { options, near, left }: &Approach,
         monitor: &dyn Monitor,
-    ) -> Result<bool, Cancelled> {
+    ) -> Result<(), Cancelled> {
         let Self { mesh, on, fitted, .. } = self;
         let before = mesh.positions.clone();
         let report = fitted.approach(mesh, on, survey, options, monitor)?;
-        let is_nearer = report.apart <= *near || report.apart <= left * fitted.report.apart;
-        if is_nearer {
+        if report.apart <= *near || report.apart <= left * fitted.report.apart {
             fitted.report = report;
         } else {
             mesh.positions = before;
         }
-        Ok(is_nearer)
+        Ok(())
     }
 }
 
