@@ -73,8 +73,13 @@ const SMALL = {
   binaryen: ['--one-caller-inline-max-function-size', '0', '--flexible-inline-max-function-size', '0'],
 };
 
-// RUSTC_BOOTSTRAP lets the pinned stable toolchain take what begins with -Z.
-const withFlags = (flags) => ({ RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags });
+// Lets the pinned stable toolchain take what begins with -Z.
+const UNSTABLE = { RUSTC_BOOTSTRAP: '1' };
+
+// What a panic tells of where it was names crates and files in them, not the folders of the machine that built the module.
+const TRIMMED = ['-Z', 'trim-paths', '--config', 'profile.web.trim-paths="all"'];
+
+const withFlags = (flags) => ({ CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags });
 
 const ON_ONE_THREAD = { profile: 'web-mesher', optimize: OPTIMIZED, env: withFlags(`-C target-feature=+simd128 ${LOCATIONS}`) };
 
@@ -138,7 +143,8 @@ async function compile({ name, features, profile = 'web', cargo = [], rustc = []
   const targetFolder = targetFolderOf(name);
   const args = ['rustc', '--lib', '--crate-type', 'cdylib', '--target', TARGET, '--profile', profile];
   const selection = ['--no-default-features', '--features', features, '--target-dir', targetFolder];
-  await must('cargo', [...args, ...selection, ...cargo, '--', ...rustc], { ...run, env });
+  const unstable = { ...UNSTABLE, ...env };
+  await must('cargo', [...args, ...selection, ...TRIMMED, ...cargo, '--', ...rustc], { ...run, env: unstable });
   return readFileSync(compiledPath(name, profile));
 }
 

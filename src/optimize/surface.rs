@@ -165,8 +165,13 @@ impl BoundarySurface {
             };
             of_curve.push(ends);
         }
-        let curve_between: BTreeMap<[u32; 2], u32> = by_pair.keys().copied().zip(0..).collect();
-        let curve_among = by_set.keys().cloned().zip(curve_between.len() as u32..).collect();
+        let (mut curve_between, mut curve_among) = (BTreeMap::new(), BTreeMap::new());
+        for (pair, curve) in by_pair.keys().zip(0..) {
+            curve_between.insert(*pair, curve);
+        }
+        for (set, curve) in by_set.keys().zip(by_pair.len() as u32..) {
+            curve_among.insert(set.clone(), curve);
+        }
         let ends_at = by_pair.keys().map(|pair| pair.to_vec()).chain(by_set.keys().cloned()).collect();
         let told = |piece| monitor.proceed().map(|()| piece);
         let patches = by_patch.into_iter().map(|facets| told(Piece::patch(facets)));

@@ -50,8 +50,8 @@ pub(super) fn capture(
     monitor: &dyn Monitor,
 ) -> Result<Capture, Cancelled> {
     let curves: Vec<CurveId> = network.curves().collect();
-    let corridors: BTreeMap<CurveId, Corridor> =
-        curves.iter().copied().zip(corridors(boundary, network, &curves, monitor)?).collect();
+    let corridors = corridors(boundary, network, &curves, monitor)?;
+    let corridor_of = |curve: CurveId| &corridors[curves.binary_search(&curve).expect("legs are of these")];
     let mut penalties = Penalties::default();
     let (mut known, mut candidates) = (Known::new(), Candidates::new());
     let mut round = 0;
@@ -60,7 +60,7 @@ pub(super) fn capture(
         // Most of it is done in the first rounds.
         monitor.checkpoint(CORRESPONDENCE, 0.9 - 0.8 / f64::from(round))?;
         let (stops, legs) = stops_and_legs(network, |p| boundary.length_near(p));
-        let of_legs: Vec<&Corridor> = legs.iter().map(|leg| &corridors[&leg.curve]).collect();
+        let of_legs: Vec<&Corridor> = legs.iter().map(|leg| corridor_of(leg.curve)).collect();
         let mut best: Option<Try> = None;
         for _ in 0..PLACEMENTS {
             monitor.proceed()?;
@@ -105,10 +105,12 @@ fn failing(routes: &Routes) -> Vec<u32> {
 }
 
 fn good_paths(legs: &[Leg], routes: &Routes) -> Known {
-    let mut known: Known =
-        legs.iter().zip(&routes.paths).map(|(leg, path)| ((leg.curve, leg.place), path.clone())).collect();
-    for leg in failing(routes) {
-        known.remove(&(legs[leg as usize].curve, legs[leg as usize].place));
+    let mut known = Known::new();
+    let failing = failing(routes);
+    for (number, (leg, path)) in (0..).zip(legs.iter().zip(&routes.paths)) {
+        if failing.binary_search(&number).is_err() {
+            known.insert((leg.curve, leg.place), path.clone());
+        }
     }
     known
 }

@@ -237,8 +237,8 @@ pub(super) fn give_up_short(network: &mut Network, boundary: &Boundary) {
             network.length(curve) < SHORT_LOOP * boundary.length_near(middle)
         }
     };
-    let mut queue: std::collections::BTreeSet<(u64, CurveId)> =
-        network.curves().map(|c| (network.length(c).to_bits(), c)).collect();
+    let mut queue = std::collections::BTreeSet::new();
+    queue.extend(network.curves().map(|c| (network.length(c).to_bits(), c)));
     // Lengths are positive, so their bits are in their order. A curve that a contraction lengthens or closes is
     // looked at once more when it comes to its length.
     while let Some((bits, curve)) = queue.pop_first() {

@@ -8,7 +8,7 @@
 //!    between the two where that is about an edge long, and two legs of different curves had better not begin with
 //!    the same node.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 use super::arms::assign_arms;
@@ -200,7 +200,8 @@ impl Placer<'_> {
         }
         let mut direct = self.direct_legs(nodes);
         loop {
-            let direct_legs: BTreeSet<u32> = direct.values().copied().collect();
+            let mut direct_legs: Vec<u32> = direct.values().copied().collect();
+            direct_legs.sort_unstable();
             let mut begun: BTreeMap<u32, u32> = BTreeMap::new();
             let mut spokes = Vec::with_capacity(nodes.len());
             let mut stuck = Vec::new();
@@ -214,7 +215,7 @@ impl Placer<'_> {
                     let leg = self.stops[stop as usize].arms[arm].leg;
                     // Along the edge between their nodes runs that leg, and no other.
                     let runs = stop_at.get(&to).map(|&other| direct.get(&pair(stop, other)) == Some(&leg));
-                    if runs == Some(false) || (runs.is_none() && direct_legs.contains(&leg)) {
+                    if runs == Some(false) || (runs.is_none() && direct_legs.binary_search(&leg).is_ok()) {
                         return None;
                     }
                     let shared = begun.get(&to).is_some_and(|&other| other != leg);

@@ -46,8 +46,8 @@ pub(super) fn cover(graph: &mut Graph, shadow: &Shadow, monitor: &dyn Monitor) -
 /// each edge.
 fn bounded(graph: &Graph, ids: &[u32], kept: &[bool], sides: &HashMap<[u32; 2], i32>) -> Vec<Segment> {
     let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
-    let mut open: BTreeSet<[u32; 2]> =
-        sides.iter().filter(|(_, covered)| **covered == 1).map(|(ends, _)| *ends).collect();
+    let mut open = BTreeSet::new();
+    open.extend(sides.iter().filter(|(_, covered)| **covered == 1).map(|(ends, _)| *ends));
     let mut segments = Vec::new();
     for (segment, _) in graph.segments.iter().zip(kept).filter(|(_, kept)| **kept) {
         let ends = sorted(segment.ends.map(|end| ids[end as usize]));

@@ -73,7 +73,10 @@ fn beside(anchor: Anchor, on: &Correspondence, solid: &SolidModel) -> Vec<Surfac
 
 /// Where the nodes belong, and the boundary around them.
 fn marks(problem: &Problem, holds: &Holds, on: &Correspondence, nodes: &[NodeId]) -> Vec<Mark> {
-    let mut quads: BTreeMap<NodeId, Vec<[u32; 4]>> = nodes.iter().map(|&id| (id, Vec::new())).collect();
+    let mut quads: BTreeMap<NodeId, Vec<[u32; 4]>> = BTreeMap::new();
+    for &id in nodes {
+        quads.insert(id, Vec::new());
+    }
     for (quad, _) in &on.faces {
         for node in quad {
             if let Some(around) = quads.get_mut(node) {

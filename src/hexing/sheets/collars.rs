@@ -17,8 +17,6 @@
 //! 2. Where such a set is no manifold, the quads between its members join it, a few times; then it is given up.
 //! 3. A pillow can make corners flat at a curve that it crosses: all is done again, a few times.
 
-use std::collections::BTreeSet;
-
 use super::super::correspondence::Correspondence;
 use super::boundary::Boundary;
 use super::groups::Groups;
@@ -65,7 +63,8 @@ pub(super) fn insert(
 
 /// What draws back together: quads, and the nodes at which some of them would be flat.
 struct Crowd {
-    quads: BTreeSet<u32>,
+    /// Ascending.
+    quads: Vec<u32>,
     corners: Vec<NodeId>,
 }
 
@@ -74,7 +73,7 @@ fn pillow_grown(
     mesh: &mut HexMesh,
     on: &mut Correspondence,
     boundary: &mut Boundary,
-    mut quads: BTreeSet<u32>,
+    mut quads: Vec<u32>,
 ) -> Option<Layer> {
     for _ in 0..=GROWTHS {
         let hexes = boundary.hexes(quads.iter().copied());
@@ -91,6 +90,8 @@ fn pillow_grown(
                     .collect();
                 let before = quads.len();
                 quads.extend(more);
+                quads.sort_unstable();
+                quads.dedup();
                 if quads.len() == before {
                     return None;
                 }
@@ -116,8 +117,8 @@ fn touching(sides: &Sides, corners: &[FlatCorner]) -> Vec<Crowd> {
     let mut by_root: Vec<(u32, u32)> = (0u32..).zip(quads).map(|(i, q)| (sets.root(i).0, q)).collect();
     by_root.sort_unstable();
     let crowd = |set: &[(u32, u32)]| {
-        let quads: BTreeSet<u32> = set.iter().map(|&(_, q)| q).collect();
-        let corners = corners.iter().filter(|corner| quads.contains(&corner.quad));
+        let quads: Vec<u32> = set.iter().map(|&(_, q)| q).collect();
+        let corners = corners.iter().filter(|corner| quads.binary_search(&corner.quad).is_ok());
         Crowd { corners: corners.map(|corner| corner.node).collect(), quads }
     };
     by_root.chunk_by(|a, b| a.0 == b.0).map(crowd).collect()

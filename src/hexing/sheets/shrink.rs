@@ -18,8 +18,6 @@
 //!    nodes have gone.
 //! 4. Copies, new hexes, boundary quads and curves' edges.
 
-use std::collections::BTreeSet;
-
 use super::super::correspondence::{Anchor, Correspondence};
 use super::boundary::{Boundary, BoundaryEdges, NONE, ascending};
 use crate::geometry::Point;
@@ -179,11 +177,12 @@ fn sides_between(mesh: &HexMesh, boundary: &Boundary, hexes: &[u32], open: &[boo
     let mut keyed: Vec<([NodeId; 4], Side)> =
         sides.map(|side| (sorted(side_nodes(&mesh.hexes, side)), side)).collect();
     keyed.sort_unstable();
-    let on_boundary: BTreeSet<Side> =
+    let mut on_boundary: Vec<Side> =
         (0..open.len()).filter(|&q| open[q]).map(|q| boundary.sides[q]).collect();
+    on_boundary.sort_unstable();
     let mut single: Vec<Side> = keyed
         .chunk_by(|a, b| a.0 == b.0)
-        .filter(|shared| shared.len() == 1 && !on_boundary.contains(&shared[0].1))
+        .filter(|shared| shared.len() == 1 && on_boundary.binary_search(&shared[0].1).is_err())
         .map(|shared| shared[0].1)
         .collect();
     single.sort_unstable();

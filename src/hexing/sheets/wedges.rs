@@ -42,7 +42,9 @@ pub(super) fn insert(
     let edges = Look::new(mesh, on, boundary, groups).curve_edges();
     let is_thin =
         |edge: &&CurveEdge| edge.hexes == 2 && groups.is_thin(edge.curve) && layers.takes_wedge(edge.curve);
-    let thin: BTreeSet<CurveId> = edges.iter().filter(is_thin).map(|edge| edge.curve).collect();
+    let mut thin: Vec<CurveId> = edges.iter().filter(is_thin).map(|edge| edge.curve).collect();
+    thin.sort_unstable();
+    thin.dedup();
     let mut pinched = Vec::new();
     for curve in thin {
         monitor.proceed()?;

@@ -1,6 +1,6 @@
 //! Physical groups of an MSH file, and the tag sets that they make.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
 use super::UNTAGGED;
 use super::file::MshFile;
@@ -81,8 +81,10 @@ impl Groups {
         let used = of_entities.chain(of_elements);
         let used =
             used.flat_map(|(dimension, all)| all.iter().map(move |&g| (dimension, g.saturating_abs())));
-        let all: BTreeSet<(i64, i64)> =
-            named.chain(used).filter(|&(dimension, group)| dimension < 2 && group != 0).collect();
+        let is_meant = |&(dimension, group): &(i64, i64)| dimension < 2 && group != 0;
+        let mut all: Vec<(i64, i64)> = named.chain(used).filter(is_meant).collect();
+        all.sort_unstable();
+        all.dedup();
         let name = |key: &(i64, i64)| self.names.get(key).cloned().unwrap_or_else(|| key.1.to_string());
         all.iter().map(name).filter(|name| name != UNTAGGED).collect()
     }
