@@ -15,8 +15,8 @@ use crate::mesh::{Distances, HexMesh, MeshHash, Quads, Triangles, farthest_from_
 use crate::solid::SolidModel;
 use crate::{Cancelled, Monitor};
 
-/// Unless somebody asked for the distance, a mesh that is farther from its solid than so many times what is near approaches only
-/// if it is kept: smaller cells are tried first, since those it has hardly ever get near enough.
+/// A mesh that is farther from its solid than so many times what is near approaches only if it is kept: smaller cells are tried
+/// first, since those it has hardly ever get near enough.
 const HOPELESS: f64 = 1.4;
 
 /// Unless somebody asked for the distance, smaller cells are tried only where mesh and solid are farther from each other than so
@@ -57,6 +57,7 @@ pub(super) fn draft(
         background: plan.kind,
         shift: plan.shift,
         holds_walls: plan.holds_walls,
+        edge_length: site.options.edge_length,
         levels: levels_of(&background),
         ..AttemptReport::default()
     };
@@ -113,8 +114,6 @@ impl Draft {
         let mut sheets = insert_sheets(&mut mesh, &mut on, solid, monitor)?;
         let max_distance = options.max_distance.unwrap_or(f64::INFINITY);
         let near = tolerance(site, kind);
-        let too_far = if options.max_distance.is_some() { near } else { TOO_FAR * near };
-        let approach = Approach::new(options.max_distance, near, site.taste.good + SPARE);
         let fit_options = FitOptions { max_distance, ..FitOptions::default() };
         let (fitted, survey) = fit(&mut mesh, &mut on, &mut sheets, solid, &fit_options, monitor)?;
         report.features = Some(FeatureReport::new(solid, &on.reduction));
@@ -122,12 +121,17 @@ impl Draft {
             return Err(HexingError::Tangled(fitted.report.inverted.len()));
         }
         let misses_features = || !misses(site, kind, &core, &on.reduction, Vec::new(), &cells).is_empty();
-        // Where a distance is asked for smaller cells come first if more is missed; unless it is, where many are poor.
-        let may_approach = core.report.off_kind() == 0
-            && if options.max_distance.is_some() { !misses_features() } else { fitted.report.mean >= FAIR };
+        let is_asked = options.max_distance.is_some();
+        let may_approach = core.report.off_kind() == 0 && (is_asked || fitted.report.mean >= FAIR);
         let apart = fitted.report.apart;
-        let is_hopeless = options.max_distance.is_none() && apart > HOPELESS * near;
+        // Where a distance is asked for smaller cells come first if more is missed.
+        let is_hopeless = apart > HOPELESS * near || is_asked && misses_features();
+        let mut approaches = vec![Approach::new(options.max_distance, near, site.taste.good + SPARE)];
+        if is_asked {
+            approaches.splice(0..0, Approach::again(&approaches[0]));
+        }
         let mut meshed = Meshed { mesh, on, fitted, approach: None };
+        let too_far = if is_asked { near } else { TOO_FAR * near };
         let look = |meshed: &Meshed| -> Result<(Distances, Vec<Failure>), Cancelled> {
             let Meshed { mesh, on, .. } = meshed;
             let (distance, far) = distances(mesh, on, solid, too_far, monitor)?;
@@ -136,17 +140,18 @@ impl Draft {
         // What a survey sees is too far need not be looked at before that is mended.
         let mut survey = survey.filter(|_| may_approach && apart > near && !is_hopeless);
         let (distance, mut failures) = loop {
-            let is_mended = survey.is_some();
-            if let Some(mut survey) = survey.take() {
+            if let Some(mut survey) = survey.take()
+                && let Some(approach) = approaches.pop()
+            {
                 meshed.approach(&mut survey, &approach, monitor)?;
             }
             let seen = look(&meshed)?;
             let is_far = seen.1.iter().any(|failure| failure.missed == Missed::Far);
-            if is_mended || !may_approach || !is_far {
+            if !may_approach || !is_far || approaches.is_empty() {
                 break seen;
             }
             if is_hopeless {
-                meshed.approach = Some(approach);
+                meshed.approach = approaches.pop();
                 break seen;
             }
             survey = Some(Survey::new(&meshed.mesh, &meshed.on.faces, solid));
@@ -155,10 +160,10 @@ impl Draft {
             && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
         // Smaller cells elsewhere bring them no nearer where none may be smaller.
         let is_finest = || cells.finest(&[distance.farthest()])[0] >= site.finest(kind);
-        if options.max_distance.is_none() && (may_stay || is_finest()) {
+        if !is_asked && (may_stay || is_finest()) {
             failures.retain(|failure| failure.missed != Missed::Far);
         }
-        if may_approach && meshed.approach.is_none() && options.max_distance.is_none() {
+        if may_approach && meshed.approach.is_none() && !is_asked {
             meshed.approach = Approach::of_little(distance.hausdorff(), solid.diagonal());
         }
         let came = &meshed.fitted.report;
@@ -191,8 +196,7 @@ fn best_core(
     Ok(if rank(&thin) < rank(&plain) { (thin, true) } else { (plain, false) })
 }
 
-/// Is some part of a solid that somebody drew so far from the core that cells are missing there, or too many? Where a distance
-/// is asked for that is not looked at: smaller cells are tried by what a mesh tells, as often as it takes.
+/// Is some part of a solid that somebody drew so far from the core that cells are missing there, or too many?
 fn lacks_part(
     core: &HexMesh,
     on: &Correspondence,
@@ -200,7 +204,7 @@ fn lacks_part(
     monitor: &dyn Monitor,
 ) -> Result<bool, Cancelled> {
     let (solid, edge) = (site.solid, site.options.edge_length);
-    if solid.is_free_form() || site.options.max_distance.is_some() {
+    if solid.is_free_form() {
         return Ok(false);
     }
     let quads = on.quads();
@@ -311,13 +315,13 @@ mod tests {
 
     #[test]
     fn a_mesh_that_gets_much_nearer_is_kept_though_not_near_enough() {
-        let [before, after] = [0.06, 0.035].map(|max_distance| fitted(0.5, max_distance));
+        let [before, after] = [0.06, 0.04].map(|max_distance| fitted(0.4, max_distance));
         assert!(after.approached && after.failures > 0);
-        assert!((0.035..NEARER * before.distance).contains(&after.distance));
+        assert!((0.04..NEARER * before.distance).contains(&after.distance));
     }
 
     #[test]
-    fn a_mesh_that_is_far_too_far_waits_unless_a_distance_is_asked_for() {
+    fn a_mesh_that_is_far_too_far_waits() {
         let (solid, _) = house(0.56);
         let waits = |max_distance: Option<f64>| {
             let hearing = Hearing::default();
@@ -325,7 +329,7 @@ mod tests {
             assert!(!failures.is_empty() && distance(&report) > 0.06);
             (meshed.approach.is_some(), hearing.0.into_inner())
         };
-        assert_eq!([None, Some(0.05)].map(waits), [(true, false), (false, true)]);
+        assert_eq!([None, Some(0.04)].map(waits), [(true, false); 2]);
     }
 
     #[test]

@@ -19,13 +19,14 @@
 //!    and where that is such, one that shows walls and steps however thin.
 //!
 //! A mesh that is too far from the solid is first brought nearer with cells that are fair instead of good (`attempt`), unless
-//! it misses more and a distance is asked for, or none is and many of its cells are poor. Where it is so far that this hardly
-//! ever suffices, smaller cells are tried before that, and it is brought nearer if it is kept, as is one that lacks little
-//! (`meshed`).
+//! no distance is asked for and many of its cells are poor. Where it is so far that this hardly ever suffices, or it misses more
+//! and a distance is asked for, smaller cells are tried before that, and it is brought nearer if it is kept, as is one that lacks
+//! little (`meshed`). Where a distance is asked for and that does not suffice edges become shorter before 3 (`asked`).
 //!
-//! The best attempt is kept (`merit`), and finished. Those that turn out to be worse than another are given up at once; and
+//! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and
 //! how many times as large as the first another may be is bounded.
 
+use super::asked::shorter;
 use super::background::{Background, BackgroundError, Failure, Missed, retry};
 use super::ground::{Plan, Site};
 use super::merit::{captured, distance};
@@ -33,17 +34,14 @@ use super::meshed::Meshed;
 use super::options::{HexingError, HexingOptions};
 use super::report::{AttemptReport, BodyReport};
 use super::search::{Attempt, Search};
+use crate::Monitor;
 use crate::solid::SolidModel;
-use crate::{Cancelled, Monitor};
 
 /// How the lines of a grid are moved from try to try, as shares of an edge.
 const SHIFTS: [[f64; 3]; 2] = [[0.5; 3], [0.25, 0.5, 0.75]];
 
 /// The background of another try has at most so many times the hexes of the first of its kind.
 const GROWTH: f64 = 4.0;
-
-/// And at most so many times where a distance is asked for: once all cells at the boundary may become smaller.
-const ASKED_GROWTH: f64 = 10.0;
 
 /// And at most so many times where all that is too far from the solid has smaller cells: of a curved boundary that may be
 /// nearly everything, and whoever gives an edge length wants cells of about that.
@@ -82,10 +80,12 @@ pub(super) struct Best {
     pub(super) number: usize,
 }
 
-/// Meshes a body.
-pub(super) fn mesh_body(
+/// The best mesh of a body with edges of about such a length, not finished yet. Other backgrounds are not tried for one that is
+/// farther from the body than was asked for, as long as edges as short as the `shortest` may mend that.
+pub(super) fn best_mesh(
     solid: &SolidModel,
     options: &HexingOptions,
+    shortest: f64,
     monitor: &dyn Monitor,
 ) -> Result<Body, HexingError> {
     let site = Site::new(solid, options, monitor)?;
@@ -114,6 +114,9 @@ pub(super) fn mesh_body(
         search.sweep_walls()?;
     }
     search.refine(options.max_hexes)?;
+    if search.shows_kind() && shorter(search.apart(), options, shortest).is_some() {
+        return Ok(search.end());
+    }
     if search.is_other() || !search.is_good() {
         search.shell()?;
     }
@@ -155,7 +158,7 @@ pub(super) fn mesh_body(
     search.settle()?;
     match (&search.best, search.tangled) {
         (None, Some(hexes)) => Err(HexingError::Tangled(hexes)),
-        _ => Ok(search.end()?),
+        _ => Ok(search.end()),
     }
 }
 
@@ -271,10 +274,7 @@ impl Search<'_> {
 
     /// How many if all that is too far from the solid has smaller cells.
     fn limit_of_far(&self) -> u64 {
-        match self.site.options.max_distance {
-            Some(_) => self.grown(ASKED_GROWTH).max(FEW).min(self.site.options.max_hexes),
-            None => self.grown(FAR_GROWTH).min(self.site.options.max_hexes),
-        }
+        self.grown(FAR_GROWTH).min(self.site.options.max_hexes)
     }
 
     /// How many if walls and steps are shown however thin.
@@ -314,11 +314,11 @@ impl Search<'_> {
         Some(Plan { regions, details, in_blocks, ..plan.clone() })
     }
 
-    /// Finishes the best attempt.
-    fn end(mut self) -> Result<Body, Cancelled> {
+    /// What came of it.
+    fn end(mut self) -> Body {
         let site = self.site;
         let best = self.best.take().and_then(|best| Some(Best { meshed: best.meshed?, number: best.number }));
-        let mut body = Body {
+        Body {
             report: BodyReport {
                 place: site.solid.bounds().center().to_array(),
                 choice: site.choice,
@@ -328,12 +328,7 @@ impl Search<'_> {
                 refused: self.refused,
             },
             best,
-        };
-        if let Some(Best { meshed, number }) = &mut body.best {
-            let report = body.report.attempts[*number].mesh.as_mut().expect("a mesh is kept");
-            meshed.finish(site.solid, report, self.monitor)?;
         }
-        Ok(body)
     }
 }
 

@@ -53,12 +53,23 @@ impl Approach {
         Self { options, near, left: NEARER }
     }
 
+    /// What is to follow this one where a distance is asked for and it did not suffice, the first last: the same once more, from
+    /// where it came, and one with cells that stay good.
+    pub(super) fn again(&self) -> [Self; 2] {
+        [Self::with_good_cells(self.near), Self { left: LITTLE_LEFT, ..self.clone() }]
+    }
+
     /// One for a mesh that is kept, where it lacks little: cells stay good.
     pub(super) fn of_little(apart: f64, diagonal: f64) -> Option<Self> {
         let [near, far] = LITTLE.map(|share| share * diagonal);
+        (near < apart && apart <= far).then(|| Self::with_good_cells(near))
+    }
+
+    /// One in which cells stay good, so that it counts however little it brings.
+    fn with_good_cells(near: f64) -> Self {
         let (fair, patience, max_distance) = (f64::INFINITY, LITTLE_PATIENCE, f64::INFINITY);
         let options = ApproachOptions { near, fair, patience, max_distance };
-        (near < apart && apart <= far).then_some(Self { options, near, left: LITTLE_LEFT })
+        Self { options, near, left: LITTLE_LEFT }
     }
 }
 

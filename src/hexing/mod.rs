@@ -15,6 +15,7 @@ pub mod face;
 pub mod fit;
 pub mod sheets;
 
+mod asked;
 mod attempt;
 mod body;
 mod forecast;

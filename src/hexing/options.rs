@@ -22,7 +22,8 @@ pub struct HexingOptions {
     pub curvature: Option<f64>,
     /// Triangles that meet at more than this are parts of different surfaces, in degrees.
     pub feature_angle: f64,
-    /// How far mesh and solid may be from each other: by default as far as the edge length makes them.
+    /// How far mesh and solid may be from each other: by default as far as the edge length makes them. Where it takes that cells
+    /// are smaller, there or everywhere, as many levels as they may be.
     pub max_distance: Option<f64>,
     /// How many levels finer cells may become, so that nothing is missed and as `curvature` wants it.
     pub max_levels: u8,

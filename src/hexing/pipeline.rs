@@ -12,8 +12,9 @@
 
 use std::borrow::Borrow;
 
+use super::asked::mesh_body;
 use super::background::{BackgroundError, check_size};
-use super::body::{Best, Body, mesh_body};
+use super::body::{Best, Body};
 use super::crossings::crossing_surfaces;
 use super::ground::coarsest;
 use super::groups::{body_tags, sides_of, surface_groups};

@@ -55,6 +55,8 @@ pub struct RefusedAttempt {
     pub shift: [f64; 3],
     /// Was there to be a line of a grid, or a layer of a sweep, on both sides of what is thinner than cells?
     pub holds_walls: bool,
+    /// How long the edges of cells were to be.
+    pub edge_length: f64,
     /// How many hexes the background might have.
     pub limit: u64,
     /// Why there is none, by a stable name.
@@ -73,14 +75,15 @@ pub struct AttemptReport {
     pub shift: [f64; 3],
     /// Was there a line of a grid, or a layer of a sweep, on both sides of what is thinner than cells?
     pub holds_walls: bool,
+    /// How long the edges of cells were to be: shorter than asked for where the distance that was asked for takes that.
+    pub edge_length: f64,
     /// Hexes of the background by level, from the coarsest.
     pub levels: Vec<usize>,
     /// Was what is thinner than cells made as thick as one?
     pub keep_thin: bool,
     /// The core.
     pub core: CoreReport,
-    /// Was some part of the solid farther from the core than cells are large? Looked for where it lost some, and no distance was
-    /// asked for.
+    /// Was some part of the solid farther from the core than cells are large? Looked for where it lost some.
     pub lacks_part: bool,
     /// What became of the solid's features; not looked for where the core was worse than one before.
     pub features: Option<FeatureReport>,

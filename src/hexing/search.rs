@@ -195,13 +195,26 @@ impl<'a> Search<'a> {
         match self.attempt(plan, limit) {
             Err(HexingError::Background(error)) => {
                 let (code, reason) = (error.code(), error.to_string());
-                self.refused.push(RefusedAttempt { background, shift, holds_walls, limit, code, reason });
+                let edge_length = self.site.options.edge_length;
+                let refused =
+                    RefusedAttempt { background, shift, holds_walls, edge_length, limit, code, reason };
+                self.refused.push(refused);
                 Ok(false)
             }
             // It was an attempt.
             Err(HexingError::NothingLeft { .. }) => Ok(true),
             made => made.map(|()| true),
         }
+    }
+
+    /// Is the best attempt a mesh of the solid's kind that lacks no part of it?
+    pub(super) fn shows_kind(&self) -> bool {
+        self.best_report().is_some_and(|best| best.core.off_kind() == 0 && !best.lacks_part)
+    }
+
+    /// How far the best attempt is from the solid; infinitely without a mesh.
+    pub(super) fn apart(&self) -> f64 {
+        self.best_report().map_or(f64::INFINITY, distance)
     }
 
     pub(super) fn best_report(&self) -> Option<&AttemptReport> {
@@ -243,10 +256,8 @@ impl<'a> Search<'a> {
 
     /// Is the best attempt so far off that it does not show some part of the solid?
     pub(super) fn is_astray(&self) -> bool {
-        self.best_report().is_none_or(|best| {
-            let apart = distance(best) / self.site.options.edge_length;
-            best.core.off_kind() > 0 || apart > self.site.taste.astray
-        })
+        let is_off_kind = self.best_report().is_none_or(|best| best.core.off_kind() > 0);
+        is_off_kind || self.apart() > self.site.taste.astray * self.site.options.edge_length
     }
 
     /// Is there nothing that another try could mend?

@@ -32,7 +32,7 @@ export interface SolidOptions {
   background?: Background | undefined;
   /** Turn of the surface's normal that one edge may span, in degrees. By default edges are made no shorter for that. */
   curvature?: number | undefined;
-  /** How far mesh and surface may be from each other: where they are further, hexes are refined. */
+  /** How far mesh and surface may be from each other: where they are further, hexes become smaller, there or everywhere. */
   maxDistance?: number | undefined;
   /** How many levels finer than asked for hexes may become where something would be missed. Default 2, at most 4. */
   maxLevels?: number | undefined;

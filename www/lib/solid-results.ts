@@ -131,7 +131,7 @@ export interface BodyReport {
   /** What came of each attempt. */
   attempts: SolidAttempt[];
   /** Further attempts for which there was no background: what kind, of how many hexes at most, and why there is none. */
-  refused: { background: Background; shift: Vector; holdsWalls: boolean; limit: number; code: string; reason: string }[];
+  refused: { background: Background; shift: Vector; holdsWalls: boolean; edgeLength: number; limit: number; code: string; reason: string }[];
   /** Which attempt was kept; null for a body that is too thin for any hex, and not in the mesh. */
   kept: number | null;
 }
@@ -168,6 +168,8 @@ export interface SolidAttempt {
   shift: Vector;
   /** Was there a line of a grid, or a layer of a sweep, on both sides of what is thinner than cells? */
   holdsWalls: boolean;
+  /** How long edges were to be: shorter than asked for where the `maxDistance` that was asked for takes that. */
+  edgeLength: number;
   /** Hexes of the background by level, from the coarsest. */
   levels: number[];
   /** Whether what is thinner than cells was made as thick as one. */

@@ -171,7 +171,7 @@ pub(crate) struct HexArgs {
     #[arg(long, value_name = "DEG", value_parser = feature_angle, allow_negative_numbers = true, default_value_t = 35.0)]
     pub(crate) feature_angle: f64,
 
-    /// How far mesh and solid may be from each other before hexes there are made smaller, by --max-levels at most
+    /// How far mesh and solid may be from each other: else hexes are made smaller, there or everywhere, by --max-levels at most
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub(crate) max_distance: Option<f64>,
 
