@@ -73,20 +73,23 @@ const SMALL = {
   binaryen: ['--one-caller-inline-max-function-size', '0', '--flexible-inline-max-function-size', '0'],
 };
 
-// Lets the pinned stable toolchain take what begins with -Z.
-const UNSTABLE = { RUSTC_BOOTSTRAP: '1' };
-
 // What a panic tells of where it was names crates and files in them, not the folders of the machine that built the module.
 const TRIMMED = ['-Z', 'trim-paths', '--config', 'profile.web.trim-paths="all"'];
 
-const withFlags = (flags) => ({ CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags });
+// RUSTC_BOOTSTRAP lets the pinned stable toolchain take what begins with -Z.
+const withFlags = (flags) => ({ RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags });
 
-const ON_ONE_THREAD = { profile: 'web-mesher', optimize: OPTIMIZED, env: withFlags(`-C target-feature=+simd128 ${LOCATIONS}`) };
+const ON_ONE_THREAD = {
+  profile: 'web-mesher',
+  optimize: OPTIMIZED,
+  cargo: TRIMMED,
+  env: withFlags(`-C target-feature=+simd128 ${LOCATIONS}`),
+};
 
 const ON_A_POOL = {
   profile: 'web-mesher',
   optimize: [...OPTIMIZED, '--enable-threads'],
-  cargo: ['-Z', 'build-std=std,panic_abort'],
+  cargo: [...TRIMMED, '-Z', 'build-std=std,panic_abort'],
   env: withFlags(THREADS_FLAGS),
 };
 
@@ -143,8 +146,7 @@ async function compile({ name, features, profile = 'web', cargo = [], rustc = []
   const targetFolder = targetFolderOf(name);
   const args = ['rustc', '--lib', '--crate-type', 'cdylib', '--target', TARGET, '--profile', profile];
   const selection = ['--no-default-features', '--features', features, '--target-dir', targetFolder];
-  const unstable = { ...UNSTABLE, ...env };
-  await must('cargo', [...args, ...selection, ...TRIMMED, ...cargo, '--', ...rustc], { ...run, env: unstable });
+  await must('cargo', [...args, ...selection, ...cargo, '--', ...rustc], { ...run, env });
   return readFileSync(compiledPath(name, profile));
 }
 
