@@ -6,9 +6,9 @@
 //! shorter by the root of what is too far, and no shorter than those of cells as many levels finer as the options allow.
 //! Where nothing brings mesh and body as near as was asked for, the nearest is kept, by what `merit` weighs.
 
-use super::background::{Background, check_size};
+use super::background::check_size;
 use super::body::{Best, Body, best_mesh};
-use super::ground::coarsest;
+use super::ground::{coarsest, edge_length_of};
 use super::merit::{Taste, distance, is_better};
 use super::options::{HexingError, HexingOptions};
 use super::report::{AttemptReport, RefusedAttempt};
@@ -16,17 +16,14 @@ use crate::Monitor;
 use crate::sizing::{Region, Target};
 use crate::solid::SolidModel;
 
-/// Edges become shorter by at least the first of these shares, and at most the second: of more than what distances go with nothing
-/// is known, and less is not worth a mesh.
+/// Edges become no shorter than the first of these shares of what they were, and no longer than the second: one step is not to
+/// overshoot by far, nor a mesh to be made for little.
 const SHORTER: [f64; 2] = [0.5, 0.8];
 
 /// Somewhat shorter than it takes.
 const SPARE: f64 = 0.9;
 
-/// Half as long an edge brings a mesh nearer by this at best, as a power of two: what is square, and what was not shown at all.
-const REACH: i32 = 3;
-
-/// Edges that may become shorter by less than this share are as short as they may be.
+/// Edges that may become no shorter than this share are as short as they may be.
 const LEAST: f64 = 0.95;
 
 /// Meshes a body.
@@ -39,7 +36,7 @@ pub(super) fn mesh_body(
     let mut body = best_mesh(solid, options, shortest, monitor)?;
     let mut tried = options.clone();
     tried.regions.iter_mut().for_each(|region| region.target = sized(region, options));
-    let mut last = apart(&body);
+    let mut last = body.apart();
     while let Some(edge_length) = shorter(last, &tried, shortest) {
         tried.edge_length = edge_length;
         tried.max_levels = libm::log2(edge_length / shortest) as u8;
@@ -48,7 +45,7 @@ pub(super) fn mesh_body(
             .and_then(|()| best_mesh(solid, &tried, 0.0, monitor));
         match made {
             Ok(other) => {
-                last = apart(&other);
+                last = other.apart();
                 body.add(other, options, Taste::of(solid));
             }
             Err(HexingError::Background(error)) => {
@@ -74,11 +71,12 @@ pub(super) fn mesh_body(
     Ok(body)
 }
 
-/// How long edges are to be after a mesh that is so far `apart` from its body; none if that is near enough, or nothing would help.
+/// How long edges are to be after a mesh that is so far `apart` from its body; none if that is near enough, or the shortest would
+/// hardly help: they are taken to bring it nearer by the cube of what they are shorter, since they also show what was not shown.
 pub(super) fn shorter(apart: f64, options: &HexingOptions, shortest: f64) -> Option<f64> {
     let asked = options.max_distance?;
     let may_be = shortest / options.edge_length;
-    let is_in_reach = apart * may_be.powi(REACH) <= asked;
+    let is_in_reach = apart * may_be * may_be * may_be <= asked;
     let [most, least] = SHORTER;
     let share = (SPARE * (asked / apart).sqrt()).clamp(most, least);
     (apart > asked && may_be < LEAST && is_in_reach).then(|| options.edge_length * share.max(may_be))
@@ -88,21 +86,20 @@ pub(super) fn shorter(apart: f64, options: &HexingOptions, shortest: f64) -> Opt
 fn sized(region: &Region, options: &HexingOptions) -> Target {
     match region.target {
         Target::Level(level) => {
-            let coarsest = if options.background == Background::Octree { 2.0 } else { 1.0 };
-            Target::Size(coarsest * options.edge_length * 0.5_f64.powi(level.into()))
+            Target::Size(edge_length_of(options.background, options) * 0.5_f64.powi(level.into()))
         }
         size => size,
     }
 }
 
-/// How far the best mesh of a body is from it; infinitely without one.
-fn apart(body: &Body) -> f64 {
-    body.best_report().map_or(f64::INFINITY, distance)
-}
-
 impl Body {
     fn best_report(&self) -> Option<&AttemptReport> {
         self.best.as_ref().map(|best| &self.report.attempts[best.number])
+    }
+
+    /// How far the best mesh is from the body; infinitely without one.
+    fn apart(&self) -> f64 {
+        self.best_report().map_or(f64::INFINITY, distance)
     }
 
     /// Takes over what was tried with other edges, and the mesh that came of it if it is better.
@@ -123,6 +120,7 @@ impl Body {
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
+    use super::super::background::Background;
     use super::*;
     use crate::Silent;
     use crate::geometry::Point;

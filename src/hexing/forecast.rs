@@ -22,7 +22,8 @@ pub struct SolidForecast {
 }
 
 /// About how many hexes [`hex_solid`](super::hex_solid) makes: as many as cells of the edge length, and more in regions.
-/// What curvature, or something that was missed, has refined is not counted, nor an octree instead of what was chosen.
+/// What curvature, or something that was missed, has refined is not counted, nor an octree instead of what was chosen, nor edges
+/// that become shorter for a distance that was asked for.
 /// Regions that overlap are counted each; those a sixteenth of their size from the solid or less count as meeting it.
 ///
 /// # Errors

@@ -232,7 +232,8 @@ fn finer_by_one(region: &mut Region) {
     }
 }
 
-fn edge_length_of(kind: Background, options: &HexingOptions) -> f64 {
+/// How long the edges of cells of level 0 of a background of this kind are.
+pub(super) fn edge_length_of(kind: Background, options: &HexingOptions) -> f64 {
     if kind == Background::Octree { 2.0 * options.edge_length } else { options.edge_length }
 }
 

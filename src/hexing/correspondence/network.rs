@@ -237,6 +237,7 @@ pub(super) fn give_up_short(network: &mut Network, boundary: &Boundary) {
             network.length(curve) < SHORT_LOOP * boundary.length_near(middle)
         }
     };
+    // Filled one by one, since what is collected is sorted first: each sort is some kilobytes of the modules.
     let mut queue = std::collections::BTreeSet::new();
     queue.extend(network.curves().map(|c| (network.length(c).to_bits(), c)));
     // Lengths are positive, so their bits are in their order. A curve that a contraction lengthens or closes is

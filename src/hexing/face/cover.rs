@@ -46,6 +46,7 @@ pub(super) fn cover(graph: &mut Graph, shadow: &Shadow, monitor: &dyn Monitor) -
 /// each edge.
 fn bounded(graph: &Graph, ids: &[u32], kept: &[bool], sides: &HashMap<[u32; 2], i32>) -> Vec<Segment> {
     let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+    // Filled one by one, as in `correspondence::network`: a sort would be some kilobytes of the modules.
     let mut open = BTreeSet::new();
     open.extend(sides.iter().filter(|(_, covered)| **covered == 1).map(|(ends, _)| *ends));
     let mut segments = Vec::new();
