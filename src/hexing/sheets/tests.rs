@@ -10,13 +10,13 @@ use crate::mesh::topology::{HexTopology, hex_boundary, hex_report};
 use crate::solid::{CornerId, CurveId, SolidOptions, SurfaceId};
 
 /// Euler characteristic of a mesh that has to be conforming, a manifold and without loose nodes.
-fn euler(mesh: &HexMesh) -> i64 {
+pub(super) fn euler(mesh: &HexMesh) -> i64 {
     euler_but(mesh, |_| false)
 }
 
 /// The same of one whose new cells draw back from one side alone: not fitted yet they are folded, and nodes lie in the faces
 /// of such. `assert_true` sees if a face hangs.
-fn euler_of_folds(mesh: &HexMesh) -> i64 {
+pub(super) fn euler_of_folds(mesh: &HexMesh) -> i64 {
     euler_but(mesh, |defect| matches!(defect, Defect::HangingNodeInFace { .. }))
 }
 
@@ -30,7 +30,7 @@ fn euler_but(mesh: &HexMesh, allowed: impl Fn(&Defect) -> bool) -> i64 {
 }
 
 /// What has to be true of a correspondence for a mesh.
-fn assert_true(mesh: &HexMesh, on: &Correspondence) {
+pub(super) fn assert_true(mesh: &HexMesh, on: &Correspondence) {
     let boundary: Vec<[NodeId; 4]> = hex_boundary(&mesh.hexes).into_iter().map(|(quad, _)| quad).collect();
     assert_eq!(boundary, on.quads());
     assert_eq!(on.anchors.len(), mesh.positions.len());
@@ -99,7 +99,7 @@ fn inserted(mesh: HexMesh, on: Correspondence, groups: &Groups) -> Case {
 }
 
 /// Each surface a group of its own, no curve flat.
-fn apart(surfaces: u32, curves: usize) -> Groups {
+pub(super) fn apart(surfaces: u32, curves: usize) -> Groups {
     Groups::given(&(0..surfaces).collect::<Vec<_>>(), &vec![false; curves])
 }
 
@@ -319,85 +319,14 @@ fn culprits_are_the_last_layers_at_cells() {
     assert_eq!(report.culprits(&mesh, &[core, core + 1]).len(), 1);
 }
 
-/// Covers these surfaces with a sheet, has the curves between them be thin, and inserts wedges. Each edge on these then has
-/// one hex; how many wedges there are.
-fn wedges_between(mut mesh: HexMesh, surfaces: &[u32], flat: impl Fn(Point, Point) -> bool) -> usize {
-    let mut on = told(&mesh, side_of_box);
-    let curves = on.edges.iter().map(|&(_, curve)| curve.index() + 1).max().unwrap();
-    let mut boundary = Boundary::of(&mesh, &on);
-    let is_covered = |s: SurfaceId| surfaces.contains(&s.0);
-    let within = |look: &Look| -> Vec<(CurveId, u32)> {
-        let is_within =
-            |edge: &&CurveEdge| edge.quads.iter().all(|&q| is_covered(look.boundary.surface[q as usize]));
-        look.curve_edges().iter().filter(is_within).map(|edge| (edge.curve, edge.hexes)).collect()
-    };
-    let none = apart(6, curves);
-    let mut thin: Vec<CurveId> =
-        within(&Look::new(&mesh, &on, &boundary, &none)).into_iter().map(|(curve, _)| curve).collect();
-    thin.dedup();
-    let mut is_flat = vec![false; curves];
-    for &([a, b], curve) in &on.edges {
-        is_flat[curve.index()] |= flat(mesh.positions[a.index()], mesh.positions[b.index()]);
-    }
-    thin.retain(|curve| !is_flat[curve.index()]);
-    let groups = Groups::given(&[0, 1, 2, 3, 4, 5], &is_flat).with_thin(&thin);
-    let quads: Vec<u32> =
-        (0..boundary.quads.len() as u32).filter(|&q| is_covered(boundary.surface[q as usize])).collect();
-    pillow(&mut mesh, &mut on, &mut boundary, &ShrinkSet::Sheet(&quads)).unwrap();
-    on.faces = boundary.in_order();
-    let hexes_at = |mesh: &HexMesh, on: &Correspondence, boundary: &Boundary| -> Vec<u32> {
-        let found = within(&Look::new(mesh, on, boundary, &groups));
-        found.into_iter().filter(|(curve, _)| groups.is_thin(*curve)).map(|(_, hexes)| hexes).collect()
-    };
-    assert!(hexes_at(&mesh, &on, &boundary).iter().all(|&hexes| hexes == 2));
-    let before = (mesh.clone(), on.clone(), euler(&mesh));
-    let mut layers = Layers::default();
-    let pinched = wedges::insert(&mut mesh, &mut on, &mut boundary, &groups, &mut layers, &Silent);
-    assert_eq!(pinched, Ok(vec![]));
-    on.faces = boundary.in_order();
-    assert_eq!(euler_of_folds(&mesh), before.2);
-    assert_true(&mesh, &on);
-    let hexes = hexes_at(&mesh, &on, &boundary);
-    assert!(!hexes.is_empty() && hexes.iter().all(|&hexes| hexes == 1), "{hexes:?}");
-    let count = layers.len();
-    while let Some(layer) = layers.pop() {
-        layer.take_back(&mut mesh, &mut on);
-        assert_true(&mesh, &on);
-    }
-    assert_eq!((mesh, on), (before.0, before.1));
-    count
-}
-
-#[test]
-fn a_thin_curve_gets_one_hex() {
-    let cube = voxels(&cubes(4, |_| true));
-    let nothing = |_: Point, _: Point| false;
-    // Between other groups, and with a corner where the row turns.
-    assert_eq!(wedges_between(cube.clone(), &[1, 3], nothing), 1);
-    assert_eq!(wedges_between(cube.clone(), &[1, 3, 5], nothing), 2);
-    // All around: three curves meet at each corner.
-    assert!(wedges_between(cube, &[0, 1, 2, 3, 4, 5], nothing) >= 3);
-}
-
-/// The row on the side of the first curve that ends at a flat one would be shorter.
-#[test]
-fn a_wedge_turns_to_the_next_thin_curve() {
-    let is_flat = |a: Point, b: Point| [a, b].iter().all(|p| p.y == 4.0 && p.z == 4.0);
-    assert_eq!(wedges_between(voxels(&cubes(4, |_| true)), &[1, 3, 5], is_flat), 1);
-}
-
-/// An edge that stands upright on a plate, with flat curves at its foot.
+/// An edge that stands upright on a plate, with flat curves at its foot and at the top, so that the group needs its sheet.
 #[test]
 fn a_thin_curve_ends_at_flat_ones() {
-    let mesh = voxels(&cubes(6, |p| p.z < -1.0 || p.x < 0.0 && p.y < 0.0));
-    let is_foot = |a: Point, b: Point| a.z == 2.0 && b.z == 2.0;
-    assert_eq!(wedges_between(mesh, &[1, 3, 5], is_foot), 1);
     let (mesh, on, groups) = upright_edge();
     let Case { report, .. } = inserted(mesh, on, &groups);
     assert_eq!((report.sheets, report.wedges, report.pinched.len()), (1, 1, 0), "{report:?}");
 }
 
-/// The same edge, where the top's curves are flat as well, so that the group needs its sheet.
 fn upright_edge() -> (HexMesh, Correspondence, Groups) {
     let mesh = voxels(&cubes(6, |p| p.z < -1.0 || p.x < 0.0 && p.y < 0.0));
     let is_foot = |a: Point, b: Point| a.z == 2.0 && b.z == 2.0;

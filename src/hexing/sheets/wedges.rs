@@ -15,6 +15,9 @@
 //! 2. The hexes at the row draw back from the others, and from the quads on one side of it (`shrink`). The side is that
 //!    where the row does more: where it turns to another thin curve this needs no wedge of its own, and there stays one hex
 //!    at the corner between them. Else it is the shorter row; where that would be pinched, the other.
+//! 3. Where a row ends, the surface that it lies on gets one quad more at the corner, and so does that behind the next curve.
+//!    Where that curve is flat and the one after it is sharp, and no more end there, all hexes at the corner draw back together
+//!    instead: it is left with two.
 
 use std::collections::BTreeSet;
 
@@ -70,13 +73,15 @@ struct Row {
     covered: Vec<u32>,
     /// How many edges of thin curves it is along.
     thin: usize,
+    /// At how many of its ends all hexes draw back.
+    rounded: usize,
 }
 
 impl Row {
     /// The quads that it takes, less two for each thin edge: a wedge of its own would take a quad there, and where such
-    /// wedges meet they leave hexes for which there is no room.
+    /// wedges meet they leave hexes for which there is no room. So it is at an end where not all hexes draw back.
     fn cost(&self) -> isize {
-        self.covered.len() as isize - 2 * self.thin as isize
+        self.covered.len() as isize - 2 * (self.thin + self.rounded) as isize
     }
 }
 
@@ -112,19 +117,25 @@ impl Walk<'_> {
         from.iter().for_each(|&e| reached[e] = true);
         let mut next = from.to_vec();
         let (mut covered, mut beside) = (BTreeSet::new(), BTreeSet::new());
+        let mut rounded = 0;
         while let Some(e) = next.pop() {
             let edge = &self.edges[e];
             let [inner, outer] = self.quads(edge)?;
             covered.insert(inner);
             beside.insert(outer);
             for node in edge.ends {
-                let around = self.sides.around(inner, node);
-                let Some(ahead) = self.ahead(edge, inner, node, &around) else { continue };
-                // The row goes on: all quads between belong to it.
-                covered.extend(around);
-                beside.extend(self.sides.around(outer, node));
-                if !std::mem::replace(&mut reached[ahead], true) {
-                    next.push(ahead);
+                let [around, across] = [inner, outer].map(|quad| self.sides.around(quad, node));
+                if let Some(ahead) = self.ahead(edge, inner, node, &around) {
+                    // The row goes on: all quads between belong to it.
+                    covered.extend(around);
+                    beside.extend(across);
+                    if !std::mem::replace(&mut reached[ahead], true) {
+                        next.push(ahead);
+                    }
+                } else if let Some(last) = self.behind_flat(edge, inner, node, &across) {
+                    covered.insert(last);
+                    beside.extend(across);
+                    rounded += 1;
                 }
             }
         }
@@ -132,7 +143,7 @@ impl Walk<'_> {
         let is_thin =
             |&(edge, &reached): &(&CurveEdge, &bool)| reached && self.look.groups.is_thin(edge.curve);
         let thin = self.edges.iter().zip(&reached).filter(is_thin).count();
-        Some(Row { hexes, covered: covered.into_iter().collect(), thin })
+        Some(Row { hexes, covered: covered.into_iter().collect(), thin, rounded })
     }
 
     /// The quad of an edge on the surface, and that across.
@@ -145,15 +156,39 @@ impl Walk<'_> {
         }
     }
 
+    /// The quad behind a flat curve that ends at `node` beside the row's last `quad`, if nothing but a sharp curve is between it
+    /// and the quads `across` the row.
+    fn behind_flat(&self, edge: &CurveEdge, quad: u32, node: NodeId, across: &[u32]) -> Option<u32> {
+        let (flat, behind) = self.other_side(quad, node, edge.ends)?;
+        let (sharp, last) = self.other_side(behind, node, flat.ends)?;
+        let is_flat = |edge: &CurveEdge| self.look.groups.is_flat(edge.curve);
+        (is_flat(flat) && !is_flat(sharp) && across.contains(&last)).then_some(behind)
+    }
+
+    /// The edge of a quad at a node that is not `before`, if it is on a curve, and the quad across it.
+    fn other_side(&self, quad: u32, node: NodeId, before: [NodeId; 2]) -> Option<(&CurveEdge, u32)> {
+        let mut out = self.sides.neighbours(quad, node).into_iter().map(|n| ascending([node, n]));
+        let edge = &self.edges[self.place(out.find(|&ends| ends != before)?)?];
+        let [a, b] = edge.quads;
+        Some((edge, if a == quad { b } else { a }))
+    }
+
+    /// The place of the edge between two nodes.
+    fn place(&self, ends: [NodeId; 2]) -> Option<usize> {
+        self.edges.binary_search_by_key(&ends, |edge| edge.ends).ok()
+    }
+
     /// The place of the edge on which the row goes on after `node`: of the same curve, or of one that is sharp and ends at
     /// the same quad.
     fn ahead(&self, edge: &CurveEdge, quad: u32, node: NodeId, around: &[u32]) -> Option<usize> {
         let mut out =
             around.iter().flat_map(|&q| self.sides.neighbours(q, node)).map(|n| ascending([node, n]));
-        let place = |ends: [NodeId; 2]| self.edges.binary_search_by_key(&ends, |edge| edge.ends).ok();
-        let ahead = out.find_map(|ends| place(ends).filter(|_| ends != edge.ends))?;
+        let ahead = out.find_map(|ends| self.place(ends).filter(|_| ends != edge.ends))?;
         let other = self.edges[ahead].curve;
         let is_sharp = || around == [quad] && !self.look.groups.is_flat(other);
         (other == edge.curve || is_sharp()).then_some(ahead)
     }
 }
+
+#[cfg(test)]
+mod tests;
