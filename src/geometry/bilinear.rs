@@ -1,6 +1,6 @@
 //! The bilinear surface through the corners of a quad.
 
-use super::Point;
+use super::{Point, segment_weights};
 
 /// Steps towards the closest point, at most: half a dozen are enough where the quad is not folded.
 const STEPS: usize = 32;
@@ -33,13 +33,30 @@ impl BilinearQuad {
     }
 
     /// The shares, from 0 to 1, of the point that is closest to `p`, which is to be nearer than the quad is large and
-    /// folded; else it may be one that is closer than those around it alone.
+    /// folded; else it may be one that is closer than all of the sides and than those around it alone.
+    pub fn closest(&self, p: Point) -> [f64; 2] {
+        let closer = |a: [f64; 2], b: [f64; 2]| {
+            if self.point(b).distance_squared(p) < self.point(a).distance_squared(p) { b } else { a }
+        };
+        let found = self.descend([0.5; 2], p);
+        let nearest = self.on_sides(p).into_iter().fold(found, closer);
+        if nearest == found { found } else { self.descend(nearest, p) }
+    }
+
+    /// The closest point of each side.
+    fn on_sides(&self, p: Point) -> [[f64; 2]; 4] {
+        let [a, b, c, d] = self.corners;
+        let [bottom, right, top, left] =
+            [[a, b], [b, c], [d, c], [a, d]].map(|ends| segment_weights(p, ends)[1]);
+        [[bottom, 0.0], [1.0, right], [top, 1.0], [0.0, left]]
+    }
+
+    /// Goes from a point to one that is closer to `p` than those around it.
     ///
     /// Newton's steps within the square of shares: a share at its end stays there if it would go beyond. Where such a
     /// step goes no closer, along u and then along v, where the surface is straight and the closest point is known.
-    pub fn closest(&self, p: Point) -> [f64; 2] {
+    fn descend(&self, mut at: [f64; 2], p: Point) -> [f64; 2] {
         let distance = |at: [f64; 2]| self.point(at).distance_squared(p);
-        let mut at = [0.5; 2];
         let mut nearest = distance(at);
         for _ in 0..STEPS {
             let mut next = self.newton(at, p);
@@ -137,6 +154,24 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// From the middle one gets to a point of the inside that is closer than those around it, and farther than a side.
+    #[test]
+    fn a_side_may_be_closer_than_what_the_middle_leads_to() {
+        let corners = [
+            Point::new(0.2234174161178692, 0.0, -0.19034133843752682),
+            Point::new(1.2228375451948404, 0.1301261259672327, 0.24862921198968413),
+            Point::new(0.7702559200578473, 0.9098998686302513, 0.09357966708561988),
+            Point::new(0.18931632420428257, 1.0476824495144054, 0.21003880765731914),
+        ];
+        let (quad, p) = (
+            BilinearQuad { corners },
+            Point::new(0.8817004633191856, 0.6224376515609582, -0.4637692373388988),
+        );
+        assert_eq!(quad.descend([0.5; 2], p).map(|share| (share * 100.0).round()), [87.0, 66.0]);
+        let [u, v] = quad.closest(p);
+        assert_eq!([u, (v * 1000.0).round()], [1.0, 775.0]);
     }
 
     #[test]

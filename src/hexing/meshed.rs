@@ -137,8 +137,7 @@ pub(super) fn distances(
     let quads = on.quads();
     let boundary = Quads { positions: &mesh.positions, quads: &quads };
     let surface = Triangles { positions: solid.points(), triangles: solid.triangles() };
-    let nearest = |p: Point| Some(solid.nearest(p).point);
-    Distances::with_samples_beyond(limit, boundary, (surface, &nearest), monitor)
+    Distances::with_samples_beyond(limit, boundary, (surface, &|p| solid.distance(p)), monitor)
 }
 
 #[cfg(all(test, not(target_arch = "wasm32")))]

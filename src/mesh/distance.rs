@@ -73,23 +73,22 @@ impl Distances {
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let search = surface.search(monitor)?;
-        let nearest = |p: Point| search.closest_point(p);
-        Ok(Self::with_samples_beyond(f64::INFINITY, mesh, (surface, &nearest), monitor)?.0)
+        Ok(Self::with_samples_beyond(f64::INFINITY, mesh, (surface, &|p| search.distance(p)), monitor)?.0)
     }
 
     /// The same, with the samples that are more than `limit` from the other surface: those of the mesh, then those of the
-    /// surface, of which it is known what is `nearest` to a point.
+    /// surface, of which it is known at what `distance` it is from a point.
     pub(crate) fn with_samples_beyond(
         limit: f64,
         mesh: impl Sampled,
-        (surface, nearest): (Triangles<'_>, &(dyn Fn(Point) -> Option<Point> + Sync)),
+        (surface, distance): (Triangles<'_>, &(dyn Fn(Point) -> f64 + Sync)),
         monitor: &dyn Monitor,
     ) -> Result<(Self, Vec<Point>), Cancelled> {
         let half = |range| Part { whole: monitor, stage: MEASURING, range };
         monitor.checkpoint(MEASURING, 0.0)?;
         let edge = mesh.mean_side();
         let (mesh_to_surface, mut beyond) =
-            Measured::of(mesh, edge, limit, nearest, &half([0.0, 0.5]))?.told();
+            Measured::of(mesh, edge, limit, distance, &half([0.0, 0.5]))?.told();
         let (surface_to_mesh, of_surface) =
             Measured::from(surface, mesh, edge, limit, &half([0.5, 1.0]))?.told();
         monitor.progress(MEASURING, 1.0);
@@ -182,15 +181,14 @@ struct Measured {
 }
 
 impl Measured {
-    /// Measures how far samples of a surface are from what is nearest to them on another one, if that has anything.
+    /// Measures at what `distance` another surface is from samples of one.
     fn of(
         sampled: impl Sampled,
         edge: f64,
         limit: f64,
-        nearest: &(dyn Fn(Point) -> Option<Point> + Sync),
+        distance: &(dyn Fn(Point) -> f64 + Sync),
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
-        let distance = |p: Point| nearest(p).map_or(f64::INFINITY, |q| q.distance(p));
         let [max, sum, squares] = [0.0; 3];
         let mut all = Self { max, sum, squares, farthest: Point::ZERO, samples: 0, beyond: Vec::new() };
         let mut take = |batch: &[Point], done: f64| {
@@ -219,7 +217,7 @@ impl Measured {
         monitor: &dyn Monitor,
     ) -> Result<Self, Cancelled> {
         let nearest = mesh.search(monitor)?;
-        Self::of(surface, edge, limit, &|p| nearest.closest_point(p), monitor)
+        Self::of(surface, edge, limit, &|p| nearest.distance(p), monitor)
     }
 
     /// The distance, and the samples beyond the limit.
@@ -361,8 +359,8 @@ mod tests {
         let measured = |limit| {
             let surface = triangle(&surface);
             let search = surface.search(&Silent).unwrap();
-            let nearest = |p: Point| search.closest_point(p);
-            Distances::with_samples_beyond(limit, triangle(&mesh), (surface, &nearest), &Silent).unwrap()
+            let distance = |p: Point| search.distance(p);
+            Distances::with_samples_beyond(limit, triangle(&mesh), (surface, &distance), &Silent).unwrap()
         };
         let (distances, beyond) = measured(1.9);
         assert_eq!(distances, between(&mesh, &surface));

@@ -249,6 +249,11 @@ impl SolidModel {
         self.foot(p, found.facet, found.point)
     }
 
+    /// How far `p` is from the boundary: 0 where that is no more than rounding makes.
+    pub fn distance(&self, p: Point) -> f64 {
+        self.search.distance(p)
+    }
+
     /// The point of a surface nearest to `p`.
     pub fn nearest_on_surface(&self, s: SurfaceId, p: Point) -> Foot {
         let found = self.search.nearest_of(s.index(), p);

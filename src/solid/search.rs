@@ -58,6 +58,11 @@ impl TriangleSearch {
         self.tree.nearest(p).expect("a surface has triangles")
     }
 
+    /// How far the nearest of all triangles is.
+    pub fn distance(&self, p: Point) -> f64 {
+        self.tree.distance(p)
+    }
+
     /// Of those of a part.
     pub fn nearest_of(&self, part: usize, p: Point) -> Nearest {
         self.tree.nearest_of(part, p).expect("a surface has triangles")

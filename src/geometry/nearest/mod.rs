@@ -30,6 +30,12 @@ const NOWHERE: u32 = u32::MAX;
 /// A facet's distance may be computed less than that of the box around it by this share of the greatest coordinate.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// A point that is no farther from a facet than this share of the greatest coordinate is on it.
+const ON: f64 = 1e-12;
+
+/// Squared distances are not negative: no facet is near enough to look at no other.
+const NO_OTHER: f64 = -1.0;
+
 thread_local! {
     /// The leaves where the last searches ended.
     static LAST: [Cell<u32>; REMEMBERED] = const { [const { Cell::new(0) }; REMEMBERED] };
@@ -107,6 +113,17 @@ impl Below {
     }
 }
 
+/// What is known of the closest point before it is looked for.
+#[derive(Clone, Copy)]
+struct Known {
+    /// The leaf that is looked at before all others, if there is one.
+    first: u32,
+    /// How far it is at most, squared.
+    most: f64,
+    /// No other is looked for where one is no farther than this, squared.
+    enough: f64,
+}
+
 /// The point of a facet that is closest to another, how far that is, squared, and the facet's place in the tree and among
 /// those that were given.
 struct Closest {
@@ -163,8 +180,20 @@ impl<F: Facet> NearestFacet<F> {
         if self.facets.is_empty() {
             return None;
         }
-        let Closest { place, index, point, .. } = self.nearest_from(self.tree.all.root, NOWHERE, most, p);
+        let known = Known { first: NOWHERE, most, enough: NO_OTHER };
+        let Closest { place, index, point, .. } = self.nearest_from(self.tree.all.root, known, p);
         (place != NOWHERE).then_some(Nearest { facet: index as usize, point })
+    }
+
+    /// How far the nearest facet is from `p`, which is 0 where that is no more than rounding makes; infinite if there are no
+    /// facets. Most points that distances are told of are on a facet: what else is there need not be looked at.
+    pub(crate) fn distance(&self, p: Point) -> f64 {
+        if self.facets.is_empty() {
+            return f64::INFINITY;
+        }
+        let on = ON * (self.tree.extent + p.abs().max_element());
+        let best = self.search(&self.tree.all, on * on, p);
+        if best.distance <= on * on { 0.0 } else { best.point.distance(p) }
     }
 
     /// Of some facets that with the least distance as it is computed, and of these the first.
@@ -172,27 +201,35 @@ impl<F: Facet> NearestFacet<F> {
         if self.facets.is_empty() {
             return None;
         }
+        let best = self.search(part, NO_OTHER, p);
+        // There is none if no distance can be compared.
+        let place =
+            if best.place == NOWHERE { self.tree.leaves[part.leaves.start as usize] } else { best.place };
+        Some((&self.facets[place as usize], best.point))
+    }
+
+    /// The closest point of some facets, or any that is no farther than is `enough`, squared. Begins where the last search around
+    /// there ended.
+    fn search(&self, part: &Part, enough: f64, p: Point) -> Closest {
         // Searches that share a place only spoil each other's beginning.
         let of_part = std::ptr::from_ref(part).addr() / align_of_val(part);
         let memory = of_part.wrapping_add(self.tree.cube.part(p)) % REMEMBERED;
         let Range { start, end } = part.leaves;
         let first = LAST.with(|last| last[memory].get()).clamp(start, end - 1);
-        let best = self.nearest_from(part.root, first, f64::INFINITY, p);
+        let best = self.nearest_from(part.root, Known { first, most: f64::INFINITY, enough }, p);
         LAST.with(|last| last[memory].set(best.leaf));
-        // There is none if no distance can be compared.
-        let place = if best.place == NOWHERE { self.tree.leaves[start as usize] } else { best.place };
-        Some((&self.facets[place as usize], best.point))
+        best
     }
 
-    /// The closest point below `root`, if it is no farther than so much, squared. Looks at the `first` leaf, if there is one,
-    /// before all others.
+    /// The closest point below `root`, as far as is asked for.
     #[inline(never)]
-    fn nearest_from(&self, root: Below, first: u32, most: f64, p: Point) -> Closest {
-        dispatch!(level(), simd => self.nearer(simd, root, first, most, p))
+    fn nearest_from(&self, root: Below, known: Known, p: Point) -> Closest {
+        dispatch!(level(), simd => self.nearer(simd, root, known, p))
     }
 
     #[inline(always)]
-    fn nearer<S: Simd>(&self, simd: S, root: Below, first: u32, most: f64, p: Point) -> Closest {
+    fn nearer<S: Simd>(&self, simd: S, root: Below, known: Known, p: Point) -> Closest {
+        let Known { first, most, enough } = known;
         let rounding = ROUNDING * (self.tree.extent + p.abs().max_element());
         let mut best = Closest { distance: most, place: NOWHERE, index: NOWHERE, leaf: 0, point: p };
         let mut limit = self.tree.cube.limit(best.limit(rounding));
@@ -230,6 +267,9 @@ impl<F: Facet> NearestFacet<F> {
                     count += 1;
                 }
             } else if (place != first || count == 1) && self.look_at(simd, place, p, &mut best) {
+                if best.distance <= enough {
+                    break;
+                }
                 limit = self.tree.cube.limit(best.limit(rounding));
             }
         }

@@ -181,3 +181,20 @@ mod random {
         }
     }
 }
+
+/// On a facet it is none, off it that to the nearest.
+#[test]
+fn a_distance_is_that_to_the_nearest_facet() {
+    let triangles = sheet(9);
+    let index = NearestTriangle::of(triangles.iter().copied());
+    for (k, &[a, b, c]) in triangles.iter().enumerate() {
+        let on = (a + b + c) / 3.0;
+        let normal = (b - a).cross(c - a).normalize();
+        for off in [0.0, 1e-15, 1e-6, 1e-3, 0.2, 3.0] {
+            let p = on + normal * off;
+            let exact = index.nearest(p).unwrap().point.distance(p);
+            assert_eq!(index.distance(p), if off < 1e-14 { 0.0 } else { exact }, "{k} {off}");
+        }
+    }
+    assert_eq!(NearestTriangle::of([]).distance(Point::ZERO), f64::INFINITY);
+}

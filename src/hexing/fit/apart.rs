@@ -52,12 +52,12 @@ impl<'a> Apart<'a> {
 
     /// How far a place is from the solid, where what is on it counts as a little off.
     pub(super) fn reach(&self, place: Point) -> f64 {
-        self.solid.nearest(place).distance.max(ON * self.solid.diagonal())
+        self.solid.distance(place).max(ON * self.solid.diagonal())
     }
 
     /// Is a place no farther from the solid than `reach`?
     pub(super) fn is_within(&self, place: Point, reach: f64) -> bool {
-        self.solid.nearest(place).distance <= reach
+        self.solid.distance(place) <= reach
     }
 
     /// What is looked at around a node, and how far that is apart with the node where it is.
@@ -115,7 +115,7 @@ impl<'a> Apart<'a> {
     /// How far a probe is apart, squared, with the node of the patch at `at`.
     fn distance_squared(&self, patch: &Patch, at: Point, probe: Probe) -> f64 {
         let from_solid = |p: Point| {
-            let distance = self.solid.nearest(p).distance;
+            let distance = self.solid.distance(p);
             distance * distance
         };
         match probe {

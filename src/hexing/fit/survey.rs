@@ -97,7 +97,7 @@ impl<'a> Survey<'a> {
         }
         let of_nodes = std::mem::take(&mut self.of_nodes);
         self.of_nodes = parallel::try_collect(self.nodes.len(), monitor, |n| {
-            if moved_nodes[n] { self.solid.nearest(self.places[n]).distance } else { of_nodes[n] }
+            if moved_nodes[n] { self.solid.distance(self.places[n]) } else { of_nodes[n] }
         })?;
         let has_moved: Vec<bool> =
             self.quads.iter().map(|quad| quad.iter().any(|&n| moved_nodes[n as usize])).collect();
@@ -207,7 +207,7 @@ impl<'a> Survey<'a> {
         let quarters = |k: usize| [0.25, 0.5, 0.75].map(|at| corners[k].lerp(corners[(k + 1) % 4], at));
         let between = (0..4).filter(is_ours).flat_map(quarters).chain(CutQuad(corners).middles());
         let of_nodes = self.quads[quad].map(|n| self.of_nodes[n as usize]);
-        between.map(|p| self.solid.nearest(p).distance).chain(of_nodes).fold(0.0, f64::max)
+        between.map(|p| self.solid.distance(p)).chain(of_nodes).fold(0.0, f64::max)
     }
 
     /// The greatest distance of all.
