@@ -1,4 +1,4 @@
-//! A mesh of a body as near to it as was asked for, if need be with shorter edges everywhere (issue: refine and retry).
+//! A mesh of a body as near to it as was asked for, if need be with shorter edges everywhere.
 //!
 //! Smaller cells in places come first (`body`). Where too much is too far for that, or they do not suffice, all edges become
 //! shorter: of a curved boundary the most part is too far if anything is, and cells that are cut in places are poorer than whole

@@ -26,7 +26,7 @@ pub struct Distances {
 }
 
 /// Distances of samples of one surface to another: of its nodes, of points along its sides and of points in its faces, such
-/// that they are no farther from each other than about an edge of the mesh.
+/// that they are no farther from each other than about an edge of the mesh. What is no more than rounding makes is 0.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Distance {

@@ -73,13 +73,13 @@ struct Row {
     covered: Vec<u32>,
     /// How many edges of thin curves it is along.
     thin: usize,
-    /// At how many of its ends all hexes draw back.
+    /// At how many of its ends all hexes of the corner draw back.
     rounded: usize,
 }
 
 impl Row {
     /// The quads that it takes, less two for each thin edge: a wedge of its own would take a quad there, and where such
-    /// wedges meet they leave hexes for which there is no room. So it is at an end where not all hexes draw back.
+    /// wedges meet they leave hexes for which there is no room. An end where all hexes of the corner draw back spares as much.
     fn cost(&self) -> isize {
         self.covered.len() as isize - 2 * (self.thin + self.rounded) as isize
     }

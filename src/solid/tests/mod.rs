@@ -127,6 +127,7 @@ fn distances_have_the_right_sign_beside_edges_and_corners() {
                     let inside = (0..3).all(|a| (0..size[a]).contains(&cell[a])) && full(cell);
                     assert_eq!(solid.contains(p), inside, "at {p}");
                     assert_eq!(solid.nearest(p).distance, solid.signed_distance(p).abs());
+                    assert_eq!(solid.nearest(p).distance, solid.distance(p));
                 }
             }
         }

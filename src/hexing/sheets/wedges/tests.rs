@@ -24,8 +24,7 @@ impl Wedged {
         on.faces = boundary.in_order();
         let mut layers = Layers::default();
         let mut wedged = Self { mesh, on, boundary, groups, wedges: 0 };
-        let is_thin = |edge: &CurveEdge, groups: &Groups| groups.is_thin(edge.curve);
-        let hexes = |wedged: &Self| wedged.hexes_at(|edge| is_thin(edge, &wedged.groups));
+        let hexes = |wedged: &Self| wedged.hexes_at(|edge| wedged.groups.is_thin(edge.curve));
         assert!(hexes(&wedged).iter().all(|&hexes| hexes == 2));
         let before = (wedged.mesh.clone(), wedged.on.clone(), euler(&wedged.mesh));
         let Self { mesh, on, boundary, groups, .. } = &mut wedged;
@@ -45,7 +44,7 @@ impl Wedged {
         wedged
     }
 
-    /// How many hexes each of the wanted edges has, in their order along the curve.
+    /// How many hexes each of the wanted edges has, in the order of their ends.
     fn hexes_at(&self, is_wanted: impl Fn(&CurveEdge) -> bool) -> Vec<u32> {
         let edges = Look::new(&self.mesh, &self.on, &self.boundary, &self.groups).curve_edges();
         edges.iter().filter(|edge| is_wanted(edge)).map(|edge| edge.hexes).collect()
@@ -103,11 +102,11 @@ fn a_thin_curve_ends_at_the_foot() {
 fn all_hexes_draw_back_where_a_wedge_ends_beside_a_concave_curve() {
     let mesh = voxels(&cubes(6, |p| p.x < 0.0 || p.y < 0.0));
     let [x_wall, y_wall, top, other] = [0, 1, 2, 3];
-    let on = told(&mesh, |middle, normal| match () {
-        () if normal.z > 0.5 => top,
-        () if normal.x > 0.5 && middle.x == 3.0 => x_wall,
-        () if normal.y > 0.5 && middle.y == 3.0 => y_wall,
-        () => other,
+    let on = told(&mesh, |middle, normal| match side_of_box(middle, normal) {
+        1 if middle.x == 3.0 => x_wall,
+        3 if middle.y == 3.0 => y_wall,
+        5 => top,
+        _ => other,
     });
     let is_between = |edge: &CurveEdge, surfaces: [u32; 2], boundary: &Boundary| {
         let mut sides = edge.quads.map(|q| boundary.surface[q as usize].0);
@@ -132,7 +131,7 @@ fn all_hexes_draw_back_where_a_wedge_ends_beside_a_concave_curve() {
     let corner = wedged.mesh.positions.iter().position(|&p| p == Point::new(3.0, 3.0, 6.0)).unwrap();
     let quads = |surface: u32| {
         let of_surface = wedged.on.faces.iter().filter(|(_, s)| s.0 == surface);
-        of_surface.filter(|(quad, _)| quad.contains(&crate::mesh::NodeId::new(corner))).count()
+        of_surface.filter(|(quad, _)| quad.contains(&NodeId::new(corner))).count()
     };
     assert_eq!([x_wall, y_wall, top].map(quads), [1, 1, 2]);
 }
