@@ -152,10 +152,11 @@ impl There<'_> {
         };
         let at_first = mesh.positions.clone();
         let mut came = near(mesh, self.on, self.holds, &mut self.survey, self.terms, &part(0.0, ROOM))?;
-        let mut in_vain = 0;
+        let (mut in_vain, mut idle) = (0, 0);
         for round in 0..ROUNDS {
             let way = WAYS[round % WAYS.len()];
-            if came.apart <= self.terms.enough || in_vain == patience {
+            // Where no way moved anything, none ever will.
+            if came.apart <= self.terms.enough || in_vain == patience || idle == WAYS.len() {
                 break;
             }
             let from = |round: usize| ROOM + (LAST - ROOM) * round as f64 / ROUNDS as f64;
@@ -164,7 +165,9 @@ impl There<'_> {
             let room = |this: &Self, mesh: &mut HexMesh, far: &[bool], monitor: &dyn Monitor| {
                 this.make_room(mesh, far, way, monitor)
             };
-            came = self.again(mesh, came, 1.0 - GAIN, &room, &part)?;
+            let has_moved;
+            (came, has_moved) = self.again(mesh, came, 1.0 - GAIN, &room, &part)?;
+            idle = if has_moved { 0 } else { idle + 1 };
             in_vain = if came.apart < (1.0 - GAIN) * was { 0 } else { in_vain + 1 };
         }
         let mut moves: Vec<bool> = mesh.positions.iter().zip(&at_first).map(|(p, q)| p != q).collect();
@@ -177,7 +180,8 @@ impl There<'_> {
         let settle = |this: &Self, mesh: &mut HexMesh, _: &[bool], monitor: &dyn Monitor| {
             this.even(mesh, &|n| moves[n.index()], monitor)
         };
-        Ok(self.again(mesh, came, 1.0, &settle, &part)?.sweeps)
+        let (came, _) = self.again(mesh, came, 1.0, &settle, &part)?;
+        Ok(came.sweeps)
     }
 
     /// Smooths cells around nodes that are `far` in a way. Returns the number of sweeps.
@@ -213,7 +217,7 @@ impl There<'_> {
     }
 
     /// Moves what gives room, brings nearer what is far, and takes back what did not help: of what was apart no more than a share
-    /// is to be left. Returns what came of all until then.
+    /// is to be left. Returns what came of all until then, and whether any node is elsewhere now.
     fn again(
         &mut self,
         mesh: &mut HexMesh,
@@ -221,7 +225,7 @@ impl There<'_> {
         share: f64,
         room: Room<'_, Self>,
         monitor: &dyn Monitor,
-    ) -> Result<Nearness, Cancelled> {
+    ) -> Result<(Nearness, bool), Cancelled> {
         let before = mesh.positions.clone();
         self.survey.renew(mesh, monitor)?;
         let was = self.survey.distances.clone();
@@ -235,10 +239,10 @@ impl There<'_> {
         let apart = self.survey.farthest();
         if apart > came.apart {
             mesh.positions = before;
-            return Ok(Nearness { sweeps, ..came });
+            return Ok((Nearness { sweeps, ..came }, false));
         }
         let far = far(mesh, self.on, self.holds, &self.survey, SHARE * apart);
-        Ok(Nearness { sweeps, apart, far, ..came })
+        Ok((Nearness { sweeps, apart, far, ..came }, mesh.positions != before))
     }
 }
 
@@ -261,6 +265,11 @@ mod tests {
 
     /// What comes of approaching with a house whose ridge turns so much that good cells do not follow it.
     fn approached(aside: f64, near: f64, fair: f64) -> Came {
+        approached_with(aside, near, fair, 5)
+    }
+
+    /// The same with other patience.
+    fn approached_with(aside: f64, near: f64, fair: f64, patience: usize) -> Came {
         let (solid, mut mesh) = house(aside);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let target = OnSolid::new(&solid, &on.reduction);
@@ -269,7 +278,7 @@ mod tests {
         }
         assert!(farthest(&mesh, &on, &solid) > 0.07);
         let fitted = Fitted { report: FitReport::default(), holds: held(&on) };
-        let options = ApproachOptions { near, fair, patience: 5, max_distance: f64::INFINITY };
+        let options = ApproachOptions { near, fair, patience, max_distance: f64::INFINITY };
         let mut survey = Survey::new(&mesh, &on.faces, &solid);
         let report = fitted.approach(&mut mesh, &on, &mut survey, &options, &Silent).unwrap();
         assert_eq!((report.worst, report.mean), quality(&mesh));
@@ -299,6 +308,13 @@ mod tests {
         let (alone, _, few) = approached(0.65, 0.1, GOOD);
         let (with_room, best, many) = approached(0.65, 0.03, GOOD);
         assert!(with_room < 0.95 * alone && best >= GOOD && many > few, "{with_room} {alone} {best}");
+    }
+
+    #[test]
+    fn it_ends_once_every_way_was_tried_in_vain() {
+        let [hasty, patient, more] = [2, 4, 9].map(|patience| approached_with(0.3, 0.03, GOOD, patience));
+        assert!(hasty.0 == patient.0 && hasty.2 < patient.2, "{hasty:?} {patient:?}");
+        assert_eq!(patient, more);
     }
 
     /// A node at the end of a bar is off.
