@@ -60,7 +60,8 @@ pub struct ApproachOptions {
     pub near: f64,
     /// The least scaled Jacobian that is left in cells that have a greater one; no more than a good one is asked for.
     pub fair: f64,
-    /// It ends after so many rounds that brought nothing where they are farthest.
+    /// It ends after so many rounds that brought nothing where they are farthest, sooner if no way of making room moved
+    /// anything at all.
     pub patience: usize,
     /// How far mesh and solid may be from each other, in model units: nodes leave where they belong by half of that at most, if
     /// they are not farther already.
