@@ -81,10 +81,7 @@ impl Meshed {
         report: &mut MeshedReport,
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
-        if let Some(approach) = self.approach.take() {
-            let mut survey = Survey::new(&self.mesh, &self.on.faces, solid);
-            self.approach(&mut survey, &approach, monitor)?;
-        }
+        self.approach_at_last(solid, monitor)?;
         let Self { mesh, on, fitted, .. } = self;
         let mut drawn_in = Vec::new();
         // Once more where nodes were drawn in: what is inside makes up for that.
@@ -105,6 +102,32 @@ impl Meshed {
         let rest = Part { whole: monitor, stage: FINISHING, range: [FINISHED, 1.0] };
         (report.distance, _) = distances(mesh, on, solid, f64::INFINITY, &rest)?;
         Ok(())
+    }
+
+    /// Brings it nearer to the solid already, if it is to approach that once it is kept, and says in the `report` what came of it.
+    pub(super) fn approach_first(
+        &mut self,
+        solid: &SolidModel,
+        report: &mut MeshedReport,
+        monitor: &dyn Monitor,
+    ) -> Result<(), Cancelled> {
+        if self.approach_at_last(solid, monitor)? {
+            let came = &self.fitted.report;
+            report.fit = FitCounts::new(came, 0);
+            (report.worst, report.mean) = (came.worst.unwrap_or_default(), came.mean);
+            (report.distance, _) = distances(&self.mesh, &self.on, solid, f64::INFINITY, monitor)?;
+        }
+        Ok(())
+    }
+
+    /// Makes the approach that was put off, if there is one.
+    fn approach_at_last(&mut self, solid: &SolidModel, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
+        let approach = self.approach.take();
+        if let Some(approach) = &approach {
+            let mut survey = Survey::new(&self.mesh, &self.on.faces, solid);
+            self.approach(&mut survey, approach, monitor)?;
+        }
+        Ok(approach.is_some())
     }
 
     /// Brings it nearer to the solid, unless that brings little.

@@ -22,6 +22,10 @@ pub(super) struct Search<'a> {
     /// The cores of the drafts that were gone on with.
     cores: Vec<MeshHash>,
     pub(super) best: Option<Attempt>,
+    /// The plans of which meshes were made.
+    fitted: Vec<Plan>,
+    /// Plans without a background of so many hexes at most.
+    without: Vec<(Plan, u64)>,
     /// Drafts that wait: each is at least about as good as those before.
     pub(super) waiting: Vec<Waiting>,
     /// Hexes that were inverted in an attempt that gave no mesh.
@@ -56,6 +60,8 @@ impl<'a> Search<'a> {
             attempts: Vec::new(),
             refused: Vec::new(),
             cores: Vec::new(),
+            fitted: Vec::new(),
+            without: Vec::new(),
             best: None,
             waiting: Vec::new(),
             tangled: None,
@@ -136,6 +142,7 @@ impl<'a> Search<'a> {
             .best_report()
             .is_none_or(|best| is_better(&report, best, self.site.options, self.site.taste));
         self.attempts[number] = report;
+        self.fitted.push(plan.clone());
         if is_better {
             self.best = Some(Attempt { meshed: Some(meshed), failures, number, plan });
         }
@@ -188,17 +195,24 @@ impl<'a> Search<'a> {
     }
 
     /// Makes an attempt more, if its background has no more than `limit` hexes. False if there is no such background, which
-    /// is noted.
+    /// is noted. Nothing is made twice.
     #[inline(never)] // Compiled once for all that call it.
     pub(super) fn another(&mut self, plan: Plan, limit: u64) -> Result<bool, HexingError> {
+        if self.best.as_ref().is_some_and(|best| best.meshed.is_some()) && self.fitted.contains(&plan) {
+            return Ok(true);
+        }
+        if self.without.iter().any(|(other, within)| *other == plan && *within == limit) {
+            return Ok(false);
+        }
         let Plan { kind: background, shift, holds_walls, .. } = plan;
-        match self.attempt(plan, limit) {
+        match self.attempt(plan.clone(), limit) {
             Err(HexingError::Background(error)) => {
                 let (code, reason) = (error.code(), error.to_string());
                 let edge_length = self.site.options.edge_length;
                 let refused =
                     RefusedAttempt { background, shift, holds_walls, edge_length, limit, code, reason };
                 self.refused.push(refused);
+                self.without.push((plan, limit));
                 Ok(false)
             }
             // It was an attempt.
@@ -260,6 +274,19 @@ impl<'a> Search<'a> {
         is_off_kind || self.apart() > self.site.taste.astray * self.site.options.edge_length
     }
 
+    /// Where the best attempt is far off the solid, but may come nearer with the cells it has, it does that at once: then nothing
+    /// else may have to be tried.
+    pub(super) fn approach(&mut self) -> Result<(), HexingError> {
+        if self.shows_kind()
+            && self.is_astray()
+            && let Some(Attempt { meshed: Some(meshed), number, .. }) = &mut self.best
+            && let Some(report) = &mut self.attempts[*number].mesh
+        {
+            meshed.approach_first(self.site.solid, report, self.monitor)?;
+        }
+        Ok(())
+    }
+
     /// Is there nothing that another try could mend?
     pub(super) fn is_good(&self) -> bool {
         self.best_report().is_some_and(|best| {
@@ -271,6 +298,8 @@ impl<'a> Search<'a> {
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
+    use super::super::fit::testing::house;
+    use super::super::merit::Taste;
     use super::super::options::HexingOptions;
     use super::*;
     use crate::Silent;
@@ -294,5 +323,40 @@ mod tests {
             let is_fitted: Vec<bool> = search.attempts.iter().map(|attempt| attempt.mesh.is_some()).collect();
             assert_eq!(is_fitted, expected);
         }
+    }
+
+    #[test]
+    fn nothing_is_made_twice() {
+        let options =
+            HexingOptions { edge_length: 1.0, background: Background::Grid, ..HexingOptions::default() };
+        let solid = solid(&cuboid([6, 6, 6]));
+        let site = Site::new(&solid, &options, &Silent).unwrap();
+        let mut search = Search::new(&site, &Silent);
+        let mut has_background = |limit: u64| search.another(site.plan(Background::Grid), limit).unwrap();
+        assert_eq!([5, 5, 6, u64::MAX, u64::MAX].map(&mut has_background), [false, false, false, true, true]);
+        assert_eq!((search.refused.len(), search.attempts.len()), (2, 1));
+    }
+
+    #[test]
+    fn what_is_astray_comes_nearer_before_all_else() {
+        // Which waits until it is kept, and how far it is off then, in edges.
+        let came = |aside: f64| {
+            let solid = house(aside).0;
+            let options =
+                HexingOptions { edge_length: 0.24, background: Background::Grid, ..HexingOptions::default() };
+            let site = Site::new(&solid, &options, &Silent).unwrap();
+            let mut search = Search::new(&site, &Silent);
+            search.attempt(site.plan(Background::Grid), u64::MAX).unwrap();
+            let apart = |search: &Search| search.apart() / options.edge_length;
+            let was = apart(&search);
+            search.approach().unwrap();
+            let waits = search.best.as_ref().unwrap().meshed.as_ref().unwrap().approach.is_some();
+            (waits, was, apart(&search))
+        };
+        let astray = Taste::of(&house(0.0).0).astray;
+        let (waits, was, is) = came(0.55);
+        assert!(waits && was == is && is <= astray, "{was} {is}");
+        let (waits, was, is) = came(0.74);
+        assert!(!waits && was > astray && is < 0.5 * was, "{was} {is}");
     }
 }
