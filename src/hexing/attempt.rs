@@ -137,13 +137,18 @@ impl Draft {
             let (distance, far) = distances(mesh, on, solid, too_far, monitor)?;
             Ok((distance, misses(site, kind, &core, &on.reduction, far, &cells)))
         };
+        let is_swept = matches!(kind, Background::Swept | Background::Shell);
+        let has_other = !is_asked && !is_swept && apart > too_far;
         // What a survey sees is too far need not be looked at before that is mended.
         let mut survey = survey.filter(|_| may_approach && apart > near && !is_hopeless);
         let (distance, mut failures) = loop {
             if let Some(mut survey) = survey.take()
                 && let Some(approach) = approaches.pop()
             {
-                meshed.approach(&mut survey, &approach, monitor)?;
+                let tried = if has_other { approach.clone().tried() } else { approach.clone() };
+                // Where it was given up it is made to the end once the mesh is kept.
+                let gave_up = meshed.approach(&mut survey, &tried, monitor)?;
+                meshed.approach = gave_up.then_some(approach);
             }
             let seen = look(&meshed)?;
             let is_far = seen.1.iter().any(|failure| failure.missed == Missed::Far);
@@ -156,8 +161,7 @@ impl Draft {
             }
             survey = Some(Survey::new(&meshed.mesh, &meshed.on.faces, solid));
         };
-        let may_stay = matches!(kind, Background::Swept | Background::Shell)
-            && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
+        let may_stay = is_swept && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
         // Smaller cells elsewhere bring them no nearer where none may be smaller.
         let is_finest = || cells.finest(&[distance.farthest()])[0] >= site.finest(kind);
         if !is_asked && (may_stay || is_finest()) {
@@ -330,6 +334,28 @@ mod tests {
             (meshed.approach.is_some(), hearing.0.into_inner())
         };
         assert_eq!([None, Some(0.04)].map(waits), [(true, false); 2]);
+    }
+
+    /// How near the first rounds bring it is chance: of some houses one gets hardly nearer.
+    #[test]
+    fn a_mesh_that_gets_hardly_nearer_at_first_is_to_approach_once_it_is_kept() {
+        let waits = |k: u32| {
+            let (solid, _) = house(f64::from(k) * 0.005);
+            let near = Taste::of(&solid).near * 0.26;
+            let hearing = Hearing::default();
+            let (_, meshed, failures) = made(&solid, 0.26, None, &hearing);
+            let tried = hearing.0.into_inner() && meshed.fitted.report.apart <= HOPELESS * near;
+            let given_up = meshed.approach.filter(|_| tried);
+            given_up.is_some_and(|approach| {
+                assert!(!failures.is_empty());
+                assert_eq!(
+                    approach.options,
+                    Approach::new(None, near, Taste::of(&solid).good + SPARE).options
+                );
+                true
+            })
+        };
+        assert!((112..117).any(waits));
     }
 
     #[test]

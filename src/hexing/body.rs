@@ -19,9 +19,11 @@
 //!    and where that is such, one that shows walls and steps however thin.
 //!
 //! A mesh that is too far from the solid is first brought nearer with cells that are fair instead of good (`attempt`), unless
-//! no distance is asked for and many of its cells are poor. Where it is so far that this hardly ever suffices, or it misses more
-//! and a distance is asked for, smaller cells are tried before that, and it is brought nearer before 3 if it does not show some
-//! part of the solid, or else if it is kept, as is one that lacks little (`meshed`). Where a distance is asked for and that does not suffice edges become shorter before 3 (`asked`).
+//! no distance is asked for and many of its cells are poor; that is given up soon where it brings hardly anything and smaller
+//! cells may do. Where it is so far that this hardly ever suffices, or it misses more and a distance is asked for, smaller
+//! cells are tried before that, and it is brought nearer before 3 if it does not show some part of the solid, or else if it is
+//! kept, as is one that lacks little (`meshed`). Where a distance is asked for and that does not suffice edges become shorter
+//! before 3 (`asked`).
 //!
 //! The best attempt is kept (`merit`). Those that turn out to be worse than another are given up at once; and
 //! how many times as large as the first another may be is bounded.

@@ -38,7 +38,7 @@ pub(super) struct Meshed {
 /// How a mesh is brought nearer to its solid.
 #[derive(Clone, Debug)]
 pub(super) struct Approach {
-    options: ApproachOptions,
+    pub(super) options: ApproachOptions,
     /// It counts where they are so near then, in model units, or no more than such a share is left of what they were apart.
     near: f64,
     left: f64,
@@ -49,8 +49,15 @@ impl Approach {
     pub(super) fn new(max_distance: Option<f64>, near: f64, fair: f64) -> Self {
         let enough = near * if max_distance.is_some() { ENOUGH_ASKED } else { ENOUGH };
         let max_distance = max_distance.unwrap_or(f64::INFINITY);
-        let options = ApproachOptions { near: enough, fair, patience: PATIENCE, max_distance };
+        let options =
+            ApproachOptions { near: enough, fair, patience: PATIENCE, is_trial: false, max_distance };
         Self { options, near, left: NEARER }
+    }
+
+    /// The same, which is given up soon where it brings hardly anything.
+    pub(super) fn tried(mut self) -> Self {
+        self.options.is_trial = true;
+        self
     }
 
     /// What is to follow this one where a distance is asked for and it did not suffice, the first last: the same once more, from
@@ -68,7 +75,7 @@ impl Approach {
     /// One in which cells stay good, so that it counts however little it brings.
     fn with_good_cells(near: f64) -> Self {
         let (fair, patience, max_distance) = (f64::INFINITY, LITTLE_PATIENCE, f64::INFINITY);
-        let options = ApproachOptions { near, fair, patience, max_distance };
+        let options = ApproachOptions { near, fair, patience, is_trial: false, max_distance };
         Self { options, near, left: LITTLE_LEFT }
     }
 }
@@ -130,22 +137,22 @@ impl Meshed {
         Ok(approach.is_some())
     }
 
-    /// Brings it nearer to the solid, unless that brings little.
+    /// Brings it nearer to the solid, unless that brings little. Was it given up soon?
     pub(super) fn approach(
         &mut self,
         survey: &mut Survey,
         Approach { options, near, left }: &Approach,
         monitor: &dyn Monitor,
-    ) -> Result<(), Cancelled> {
+    ) -> Result<bool, Cancelled> {
         let Self { mesh, on, fitted, .. } = self;
         let before = mesh.positions.clone();
-        let report = fitted.approach(mesh, on, survey, options, monitor)?;
+        let (report, gave_up) = fitted.approach(mesh, on, survey, options, monitor)?;
         if report.apart <= *near || report.apart <= left * fitted.report.apart {
             fitted.report = report;
         } else {
             mesh.positions = before;
         }
-        Ok(())
+        Ok(gave_up)
     }
 }
 

@@ -12,18 +12,22 @@ use crate::mesh::PolygonMesh;
 use crate::solid::testing::{bent, hollow_ball, lathe, moved, polygons, solid, voxels};
 
 /// A sweep captures its walls, which no grid does, and shows all of the solid but a dimple in the top, so narrow and deep that
-/// no cells of a sweep show it.
+/// no cells of a sweep show it; one that is not so deep it shows once it is refined and came nearer.
 #[test]
 fn a_sweep_is_refined_before_a_grid_is_tried() {
-    let dimple = |p: Point| 4.0 * (1.0 - (p.truncate() - 10.0).length()).max(0.0);
-    let bent = |p: Point| Point::new(p.x + 3.0 * libm::sin(p.y / 4.0), p.y, p.z);
-    let plate = voxels([40, 40, 6], |_| true);
-    let surface = moved(plate, |p| bent(if p.z == 6.0 { p - Point::Z * dimple(p) } else { p }));
-    let options = HexingOptions { edge_length: 1.5, ..HexingOptions::default() };
-    let Body { report, .. } = mesh_body(&solid(&surface), &options, &Silent).unwrap();
-    let fitted = report.attempts.iter().filter(|attempt| attempt.mesh.is_some());
-    let kinds: Vec<_> = fitted.map(|a| (a.background, a.levels.len())).collect();
-    assert_eq!(kinds[..3], [(Background::Swept, 2), (Background::Swept, 3), (Background::Grid, 1)]);
+    let fitted = |height: i32, depth: f64| {
+        let top = f64::from(height);
+        let dimple = |p: Point| depth * (1.0 - (p.truncate() - 10.0).length()).max(0.0);
+        let bent = |p: Point| Point::new(p.x + 3.0 * libm::sin(p.y / 4.0), p.y, p.z);
+        let plate = voxels([40, 40, height], |_| true);
+        let surface = moved(plate, |p| bent(if p.z == top { p - Point::Z * dimple(p) } else { p }));
+        let options = HexingOptions { edge_length: 1.5, ..HexingOptions::default() };
+        let Body { report, .. } = mesh_body(&solid(&surface), &options, &Silent).unwrap();
+        let fitted = report.attempts.iter().filter(|attempt| attempt.mesh.is_some());
+        fitted.map(|a| (a.background, a.levels.len())).collect::<Vec<_>>()
+    };
+    assert_eq!(fitted(6, 4.0), [(Background::Swept, 2), (Background::Swept, 3)]);
+    assert_eq!(fitted(10, 5.0)[..2], [(Background::Swept, 2), (Background::Grid, 1)]);
 }
 
 /// What is kept of a solid with such edges: its background, how far that is from the solid, and what of it was found.

@@ -43,6 +43,10 @@ const ROUNDS: usize = 12;
 /// A round, or a place in one, brought something if they are nearer than before by this share.
 const GAIN: f64 = 0.01;
 
+/// A trial ends after so many rounds if they all brought less than this share of what mesh and solid were apart before them.
+const TRIAL: usize = 3;
+const PROMISE: f64 = 0.05;
+
 /// Rings of cells around what is farther than enough within which nodes come nearer, and around those that are looked at meanwhile.
 const RINGS: [usize; 2] = [12, 6];
 
@@ -63,6 +67,8 @@ pub struct ApproachOptions {
     /// It ends after so many rounds that brought nothing where they are farthest, sooner if no way of making room moved
     /// anything at all.
     pub patience: usize,
+    /// Is there something else to try, so that it ends where the first rounds bring hardly anything?
+    pub is_trial: bool,
     /// How far mesh and solid may be from each other, in model units: nodes leave where they belong by half of that at most, if
     /// they are not farther already.
     pub max_distance: f64,
@@ -70,7 +76,8 @@ pub struct ApproachOptions {
 
 impl Fitted {
     /// Brings mesh and solid as near to each other as the `options` say, as far as that is possible with cells that they call
-    /// fair: `mesh` and `on` are as the fit left them, and the `survey` is one of them. Returns what came of the fit with that.
+    /// fair: `mesh` and `on` are as the fit left them, and the `survey` is one of them. Returns what came of the fit with that, and
+    /// whether it ended as a trial that brought hardly anything.
     ///
     /// # Errors
     /// [`Cancelled`] when the monitor says so; nodes that have moved by then stay where they are.
@@ -81,26 +88,27 @@ impl Fitted {
         survey: &mut Survey,
         options: &ApproachOptions,
         monitor: &dyn Monitor,
-    ) -> Result<FitReport, Cancelled> {
-        let &ApproachOptions { max_distance, near: enough, fair, patience } = options;
+    ) -> Result<(FitReport, bool), Cancelled> {
+        let &ApproachOptions { max_distance, near: enough, fair, .. } = options;
         let evening = Evening::ALL[0];
         let terms = Terms { leave: 0.5 * max_distance, evening, enough, fair: fair.min(GOOD) };
         survey.renew(mesh, monitor)?;
-        let mut sweeps = self.report.sweeps;
+        let (mut sweeps, mut gave_up) = (self.report.sweeps, false);
         if survey.farthest() > enough {
             let (quads, heeded) = around(mesh, on, survey, enough, monitor)?;
             let faces = quads.iter().map(|&k| on.faces[k as usize]).collect();
             let part = Correspondence { faces, ..on.clone() };
             let survey_of_part = survey.part(&quads, heeded, monitor)?;
             let mut there = There { on: &part, holds: &self.holds, terms, survey: survey_of_part };
-            sweeps += there.approach(mesh, patience, monitor)?;
+            let came = there.approach(mesh, options, monitor)?;
+            (sweeps, gave_up) = (sweeps + came.0, came.1);
             survey.renew(mesh, monitor)?;
         }
         let apart = survey.farthest();
         let off = off(mesh, on, &self.holds, &OnSolid::new(survey.solid, &on.reduction));
         let (worst, mean) = quality(mesh);
         let taken_back = self.report.taken_back;
-        Ok(FitReport { taken_back, sweeps, off, worst, mean, inverted: Vec::new(), apart })
+        Ok((FitReport { taken_back, sweeps, off, worst, mean, inverted: Vec::new(), apart }, gave_up))
     }
 }
 
@@ -138,14 +146,14 @@ struct There<'a> {
 }
 
 impl There<'_> {
-    /// Brings mesh and solid nearer to each other, and makes room for that until they are near enough or so many rounds brought
-    /// nothing where they are farthest. Returns the number of sweeps.
+    /// Brings mesh and solid nearer to each other, and makes room for that until they are near enough or as many rounds as the
+    /// `options` say brought nothing where they are farthest. Returns the number of sweeps, and whether it ended as a trial.
     fn approach(
         &mut self,
         mesh: &mut HexMesh,
-        patience: usize,
+        options: &ApproachOptions,
         monitor: &dyn Monitor,
-    ) -> Result<usize, Cancelled> {
+    ) -> Result<(usize, bool), Cancelled> {
         let part = |from: f64, to: f64| Part {
             whole: monitor,
             stage: FITTING,
@@ -153,11 +161,16 @@ impl There<'_> {
         };
         let at_first = mesh.positions.clone();
         let mut came = near(mesh, self.on, self.holds, &mut self.survey, self.terms, &part(0.0, ROOM))?;
-        let (mut in_vain, mut idle) = (0, 0);
+        let promising = (1.0 - PROMISE) * came.apart;
+        let (mut in_vain, mut idle, mut gave_up) = (0, 0, false);
         for round in 0..ROUNDS {
             let way = WAYS[round % WAYS.len()];
             // Where no way moved anything, none ever will.
-            if came.apart <= self.terms.enough || in_vain == patience || idle == WAYS.len() {
+            if came.apart <= self.terms.enough || in_vain == options.patience || idle == WAYS.len() {
+                break;
+            }
+            gave_up = options.is_trial && round == TRIAL && came.apart > promising;
+            if gave_up {
                 break;
             }
             let from = |round: usize| ROOM + (LAST - ROOM) * round as f64 / ROUNDS as f64;
@@ -173,7 +186,7 @@ impl There<'_> {
         }
         let mut moves: Vec<bool> = mesh.positions.iter().zip(&at_first).map(|(p, q)| p != q).collect();
         if !moves.contains(&true) {
-            return Ok(came.sweeps);
+            return Ok((came.sweeps, gave_up));
         }
         let part = part(LAST, 1.0);
         self.survey.renew(mesh, monitor)?;
@@ -182,7 +195,7 @@ impl There<'_> {
             this.even(mesh, &|n| moves[n.index()], monitor)
         };
         let (came, _) = self.again(mesh, came, 1.0, &settle, &part)?;
-        Ok(came.sweeps)
+        Ok((came.sweeps, gave_up))
     }
 
     /// Smooths cells around nodes that are `far` in a way. Returns the number of sweeps.
@@ -266,11 +279,11 @@ mod tests {
 
     /// What comes of approaching with a house whose ridge turns so much that good cells do not follow it.
     fn approached(aside: f64, near: f64, fair: f64) -> Came {
-        approached_with(aside, near, fair, 5)
+        approached_with(aside, near, fair, 5, false).0
     }
 
-    /// The same with other patience.
-    fn approached_with(aside: f64, near: f64, fair: f64, patience: usize) -> Came {
+    /// The same with other patience, or as a trial, and whether that was given up.
+    fn approached_with(aside: f64, near: f64, fair: f64, patience: usize, is_trial: bool) -> (Came, bool) {
         let (solid, mut mesh) = house(aside);
         let on = correspond(&mesh, &solid, &Silent).unwrap();
         let target = OnSolid::new(&solid, &on.reduction);
@@ -279,12 +292,12 @@ mod tests {
         }
         assert!(farthest(&mesh, &on, &solid) > 0.07);
         let fitted = Fitted { report: FitReport::default(), holds: held(&on) };
-        let options = ApproachOptions { near, fair, patience, max_distance: f64::INFINITY };
+        let options = ApproachOptions { near, fair, patience, is_trial, max_distance: f64::INFINITY };
         let mut survey = Survey::new(&mesh, &on.faces, &solid);
-        let report = fitted.approach(&mut mesh, &on, &mut survey, &options, &Silent).unwrap();
+        let (report, gave_up) = fitted.approach(&mut mesh, &on, &mut survey, &options, &Silent).unwrap();
         assert_eq!((report.worst, report.mean), quality(&mesh));
         assert_eq!(report.off, []);
-        (farthest(&mesh, &on, &solid), report.worst.unwrap(), report.sweeps)
+        ((farthest(&mesh, &on, &solid), report.worst.unwrap(), report.sweeps), gave_up)
     }
 
     #[test]
@@ -313,9 +326,19 @@ mod tests {
 
     #[test]
     fn it_ends_once_every_way_was_tried_in_vain() {
-        let [hasty, patient, more] = [2, 4, 9].map(|patience| approached_with(0.3, 0.03, GOOD, patience));
+        let [hasty, patient, more] =
+            [2, 4, 9].map(|patience| approached_with(0.3, 0.03, GOOD, patience, false).0);
         assert!(hasty.0 == patient.0 && hasty.2 < patient.2, "{hasty:?} {patient:?}");
         assert_eq!(patient, more);
+    }
+
+    #[test]
+    fn a_trial_is_given_up_where_it_brings_hardly_anything() {
+        let made = |aside: f64| [false, true].map(|is_trial| approached_with(aside, 0.03, GOOD, 5, is_trial));
+        let [(whole, _), (tried, gave_up)] = made(0.3);
+        assert!(gave_up && tried.0 == whole.0 && tried.2 < whole.2, "{tried:?} {whole:?}");
+        let [whole, tried] = made(0.65);
+        assert!(!tried.1 && tried == whole, "{tried:?} {whole:?}");
     }
 
     /// A node at the end of a bar is off.
