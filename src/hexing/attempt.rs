@@ -137,8 +137,8 @@ impl Draft {
             let (distance, far) = distances(mesh, on, solid, too_far, monitor)?;
             Ok((distance, misses(site, kind, &core, &on.reduction, far, &cells)))
         };
-        let is_swept = matches!(kind, Background::Swept | Background::Shell);
-        let has_other = !is_asked && !is_swept && apart > too_far;
+        let is_layered = matches!(kind, Background::Swept | Background::Shell);
+        let has_other = !is_asked && !is_layered && apart > too_far;
         // What a survey sees is too far need not be looked at before that is mended.
         let mut survey = survey.filter(|_| may_approach && apart > near && !is_hopeless);
         let (distance, mut failures) = loop {
@@ -161,7 +161,7 @@ impl Draft {
             }
             survey = Some(Survey::new(&meshed.mesh, &meshed.on.faces, solid));
         };
-        let may_stay = is_swept && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
+        let may_stay = is_layered && distance.hausdorff() <= TOO_FAR_FROM_SWEEP * near;
         // Smaller cells elsewhere bring them no nearer where none may be smaller.
         let is_finest = || cells.finest(&[distance.farthest()])[0] >= site.finest(kind);
         if !is_asked && (may_stay || is_finest()) {
@@ -348,10 +348,7 @@ mod tests {
             let given_up = meshed.approach.filter(|_| tried);
             given_up.is_some_and(|approach| {
                 assert!(!failures.is_empty());
-                assert_eq!(
-                    approach.options,
-                    Approach::new(None, near, Taste::of(&solid).good + SPARE).options
-                );
+                assert_eq!(approach, Approach::new(None, near, Taste::of(&solid).good + SPARE));
                 true
             })
         };

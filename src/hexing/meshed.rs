@@ -36,9 +36,9 @@ pub(super) struct Meshed {
 }
 
 /// How a mesh is brought nearer to its solid.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Approach {
-    pub(super) options: ApproachOptions,
+    options: ApproachOptions,
     /// It counts where they are so near then, in model units, or no more than such a share is left of what they were apart.
     near: f64,
     left: f64,
@@ -88,7 +88,7 @@ impl Meshed {
         report: &mut MeshedReport,
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
-        self.approach_at_last(solid, monitor)?;
+        self.approach_as_put_off(solid, monitor)?;
         let Self { mesh, on, fitted, .. } = self;
         let mut drawn_in = Vec::new();
         // Once more where nodes were drawn in: what is inside makes up for that.
@@ -118,7 +118,7 @@ impl Meshed {
         report: &mut MeshedReport,
         monitor: &dyn Monitor,
     ) -> Result<(), Cancelled> {
-        if self.approach_at_last(solid, monitor)? {
+        if self.approach_as_put_off(solid, monitor)? {
             let came = &self.fitted.report;
             report.fit = FitCounts::new(came, 0);
             (report.worst, report.mean) = (came.worst.unwrap_or_default(), came.mean);
@@ -128,7 +128,7 @@ impl Meshed {
     }
 
     /// Makes the approach that was put off, if there is one.
-    fn approach_at_last(&mut self, solid: &SolidModel, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
+    fn approach_as_put_off(&mut self, solid: &SolidModel, monitor: &dyn Monitor) -> Result<bool, Cancelled> {
         let approach = self.approach.take();
         if let Some(approach) = &approach {
             let mut survey = Survey::new(&self.mesh, &self.on.faces, solid);

@@ -195,7 +195,7 @@ impl<'a> Search<'a> {
     }
 
     /// Makes an attempt more, if its background has no more than `limit` hexes. False if there is no such background, which
-    /// is noted. Nothing is made twice.
+    /// is noted. No mesh is made twice, and what was refused is not asked for again.
     #[inline(never)] // Compiled once for all that call it.
     pub(super) fn another(&mut self, plan: Plan, limit: u64) -> Result<bool, HexingError> {
         if self.best.as_ref().is_some_and(|best| best.meshed.is_some()) && self.fitted.contains(&plan) {
@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_made_twice() {
+    fn no_mesh_is_made_twice_and_what_was_refused_is_not_asked_for_again() {
         let options =
             HexingOptions { edge_length: 1.0, background: Background::Grid, ..HexingOptions::default() };
         let solid = solid(&cuboid([6, 6, 6]));

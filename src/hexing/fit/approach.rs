@@ -100,8 +100,9 @@ impl Fitted {
             let part = Correspondence { faces, ..on.clone() };
             let survey_of_part = survey.part(&quads, heeded, monitor)?;
             let mut there = There { on: &part, holds: &self.holds, terms, survey: survey_of_part };
-            let came = there.approach(mesh, options, monitor)?;
-            (sweeps, gave_up) = (sweeps + came.0, came.1);
+            let more;
+            (more, gave_up) = there.approach(mesh, options, monitor)?;
+            sweeps += more;
             survey.renew(mesh, monitor)?;
         }
         let apart = survey.farthest();
